@@ -148,21 +148,20 @@ bool terrain_measure_lakes(const Terrain *terrain, MeasureList *list, Error *e)
     if (!lakes || lakes->count == 0) {
         return true;
     }
+    const Lake *largest = &lakes->lake[0];
     double cell = (double)terrain->params->size / terrain->params->resolution;
-    double area = (double)lakes->lake[0].samples * cell * cell, volume = lakes->lake[0].volume;
-    int64_t columns = terrain->params->resolution + 1, outlet = lakes->lake[0].outlet;
+    double area = (double)largest->samples * cell * cell;
+    int64_t columns = terrain->params->resolution + 1;
+    int64_t column = largest->outlet % columns, row = largest->outlet / columns;
     double corner = -0.5 * (double)terrain->params->size;
     Vec3 at = terrain->params->position;
+    double x = corner + cell * (double)column + (double)at.x;
+    double z = corner + cell * (double)row + (double)at.z;
     return measures_add(list, "lakes", lakes->count, "", nan, nan, e) &&
            measures_add(list, "lake_area", area, "m2", nan, nan, e) &&
-           measures_add(list, "lake_depth", (double)lakes->lake[0].depth, "m", nan, nan, e) &&
-           measures_add(list, "lake_mean_depth", volume / area, "m", nan, nan, e) &&
-           measures_add(list, "lake_level", (double)(lakes->lake[0].level + at.y), "m", nan, nan,
-                        e) &&
-           measures_add(list, "lake_outlet_x",
-                        corner + cell * (double)(outlet % columns) + (double)at.x, "m", nan, nan,
-                        e) &&
-           measures_add(list, "lake_outlet_z",
-                        corner + cell * (double)(outlet / columns) + (double)at.z, "m", nan, nan,
-                        e);
+           measures_add(list, "lake_depth", (double)largest->depth, "m", nan, nan, e) &&
+           measures_add(list, "lake_mean_depth", largest->volume / area, "m", nan, nan, e) &&
+           measures_add(list, "lake_level", (double)(largest->level + at.y), "m", nan, nan, e) &&
+           measures_add(list, "lake_outlet_x", x, "m", nan, nan, e) &&
+           measures_add(list, "lake_outlet_z", z, "m", nan, nan, e);
 }

@@ -111,7 +111,8 @@ static bool add_shelf(Puffs *p, const Cloud *cloud, uint64_t key, Error *e)
     float wind = cloud->wind * RADIANS_PER_DEGREE;
     for (uint64_t i = 0; i < (uint64_t)TIERS * BALLS; i++) {
         uint64_t own = random_key(key, i);
-        float tier = (float)(i / BALLS) / (TIERS - 1); // 0 = the lowest
+        uint64_t above = i / BALLS; // tiers below it
+        float tier = (float)above / (TIERS - 1);
         float turn = 2.0f * ((float)(i % BALLS) + random_unit(random_key(own, 0))) / BALLS - 1.0f;
         float angle = wind + 1.5f * turn;
         float out = 0.45f + cloud->shelf * (1.0f - 0.75f * tier) * (1.0f - 0.5f * turn * turn);
