@@ -77,7 +77,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"terrain: {resolution: 64, size: 4000, rivers: {count: 100, water: 0.03}, lakes: {count: "
          "5, "
          "basins: 3}}",
-         0xae7e0c4976a65708},
+         0xe1a0d0a606720bf6},
         {"terrain: {resolution: 64, size: 6000, form: alps, lakes: {count: 9, silt: 0.2}}",
          0x84805e0ad4996c8a},
         {"terrain: {resolution: 64, form: ridges, ridges: {count: 200}}", 0x5986ae362203d199},
