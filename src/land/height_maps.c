@@ -331,11 +331,10 @@ static const struct {
     [HEIGHT_MAP_LAVA] = {"lava", .record = fill_lava, .needs = "a terrain of form volcano"},
     [HEIGHT_MAP_SCORIA] = {"scoria", .record = fill_scoria, .needs = "a terrain of form volcano"},
     [HEIGHT_MAP_AGE] = {"age", .record = fill_age, .needs = "a terrain of form braided or meander"},
-    [HEIGHT_MAP_WATER_DEPTH] =
-        {"water-depth", .record = fill_water_depth,
-         .needs =
-             "a terrain with water_level or lakes, with rivers wider than 1.2 cells, or of form braided "
-             "or meander"},
+    [HEIGHT_MAP_WATER_DEPTH] = {"water-depth", .record = fill_water_depth,
+                                .needs = "a terrain with water_level or lakes, with rivers wider "
+                                         "than 1.2 cells, or of form braided "
+                                         "or meander"},
     [HEIGHT_MAP_SUN_HOURS] = {"sun-hours"}};
 
 static int find(const char *name, size_t length)

@@ -29,8 +29,8 @@ Crags pattern_crags(const SurfacePoint *point, const CragsRock *rock);
 // A face of level beds: the land's own where it has some. size, thick: as above.
 CragsRock crags_level(const SurfacePoint *point, float size, float thick);
 
-// Height (m) by which a face is displaced: none where the mesh is more level than `level`, all of it
-// where it is steeper than `steep`, both heights of its normal.
+// Height (m) by which a face is displaced: none where the mesh is more level than `level`, all of
+// it where it is steeper than `steep`, both heights of its normal.
 float crags_height(const SurfacePoint *point, const CragsRock *rock, float level, float steep);
 
 // n tilted by a slope of the relief. Faces whose relief is geometry take the gradient of the relief
