@@ -19,6 +19,16 @@ static TerrainParams land_of(TerrainForm form, int resolution)
     return params;
 }
 
+// Mountains between so many rivers, whose water is this wide (share), with basins dug into them.
+static TerrainParams land_of_rivers(int resolution, int count, float water, int basins)
+{
+    TerrainParams params = land_of(TERRAIN_RIVERS, resolution);
+    params.rivers.count = count;
+    params.rivers.water = water;
+    params.lakes.basins = basins;
+    return params;
+}
+
 static const Lakes *lakes_of(const Grown *kept)
 {
     return ((const Terrain *)kept->state)->lakes;
@@ -118,10 +128,7 @@ static void shores_are_beaches(void **state)
 static void the_same_bits_for_any_number_of_threads(void **state)
 {
     (void)state;
-    TerrainParams params = land_of(TERRAIN_RIVERS, 128);
-    params.rivers.count = 300;
-    params.rivers.water = 0.02f;
-    params.lakes.basins = 3;
+    TerrainParams params = land_of_rivers(128, 300, 0.02f, 3);
     uint64_t hash[2];
     for (int k = 0; k < 2; k++) {
         Grown kept = {0};
@@ -137,10 +144,7 @@ static void the_same_bits_for_any_number_of_threads(void **state)
 static void basins_have_the_size_and_depth_of_mountain_lakes(void **state)
 {
     (void)state;
-    TerrainParams params = land_of(TERRAIN_RIVERS, 512);
-    params.rivers.count = 300;
-    params.rivers.water = 0.0f;
-    params.lakes.basins = 4;
+    TerrainParams params = land_of_rivers(512, 300, 0.0f, 4);
     Grown kept = {0};
     HeightField *field = make_heights(&params, SEED, 0, NULL, &kept);
     const Lakes *lakes = lakes_of(&kept);
@@ -163,10 +167,7 @@ static void basins_have_the_size_and_depth_of_mountain_lakes(void **state)
 static void rivers_run_through_lakes(void **state)
 {
     (void)state;
-    TerrainParams params = land_of(TERRAIN_RIVERS, 256);
-    params.rivers.count = 200;
-    params.rivers.water = 0.03f;
-    params.lakes.basins = 3;
+    TerrainParams params = land_of_rivers(256, 200, 0.03f, 3);
     params.lakes.basin_area = 60000.0f;
     Grown kept = {0};
     HeightField *field = make_heights(&params, SEED, 0, NULL, &kept);

@@ -93,12 +93,15 @@ static float stretch(const Digging *d, int64_t cells)
 }
 
 // The sill above which a basin of so many cells is dug with the least cutting; -1 = there is none.
-static bool find_site(Digging *d, int64_t cells, int32_t *best, Error *e)
+static bool find_site(Digging *d, int64_t cells, const Run *run, int32_t *best, Error *e)
 {
     float least = INFINITY;
     double own = (double)d->coarse->cell.x * (double)d->coarse->cell.y;
     *best = -1;
     for (int32_t i = 0; i < coarse_count(d); i++) {
+        if (!run_goes_on(run, i, e)) {
+            return false;
+        }
         float altitude = (d->coarse->height[i] - d->low) / (d->high - d->low), rise;
         if (d->drainage->area[i] < 2.0 * (double)cells * own || d->taken[i] || !is_off_rim(d, i) ||
             altitude < d->params.altitude[0] || altitude > d->params.altitude[1]) {
@@ -244,7 +247,8 @@ static void take_region(Digging *d)
     }
 }
 
-static bool dig_number(Digging *d, int number, HeightField *field, bool *found, Error *e)
+static bool dig_number(Digging *d, int number, HeightField *field, const Run *run, bool *found,
+                       Error *e)
 {
     double own = (double)d->coarse->cell.x * (double)d->coarse->cell.y;
     double area = (double)d->params.basin_area / (number + 1);
@@ -252,7 +256,7 @@ static bool dig_number(Digging *d, int number, HeightField *field, bool *found, 
     cells = cells > LEAST_CELLS ? cells : LEAST_CELLS;
     int32_t sill;
     float rise;
-    if (!find_site(d, cells, &sill, e)) {
+    if (!find_site(d, cells, run, &sill, e)) {
         return false;
     }
     *found = sill >= 0;
@@ -338,7 +342,7 @@ bool terrain_dig_basins(const Terrain *terrain, HeightField *field, const Run *r
          found = true;
     for (int i = 0; done && found && i < d.params.basins; i++) {
         run_progress(run, "lakes", (double)i / d.params.basins);
-        done = dig_number(&d, i, field, &found, e);
+        done = dig_number(&d, i, field, run, &found, e);
     }
     clear(&d);
     return done;

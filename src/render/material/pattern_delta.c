@@ -52,11 +52,8 @@ static Ground marsh(const Material *m, const SurfacePoint *point, float damp, fl
 
 static Ground willows(const Material *m, const SurfacePoint *point)
 {
-    PatternOctaves crowns = pattern_octaves(point, 9.0f, 5, 0.65f, 1.0f, SEED_SWARD + 20);
-    Ground g = {.color = vec3_mul(m->color2, vec3(0.62f, 0.66f, 0.85f))};
-    g.color = vec3_scale(g.color, 1.0f + 0.35f * clampf(crowns.value, -1.2f, 1.2f));
-    g.slope = vec3_scale(crowns.slope, 0.45f);
-    return g;
+    Vec3 color = vec3_mul(m->color2, vec3(0.62f, 0.66f, 0.85f));
+    return ground_crowns(point, 9.0f, color, 0.45f, SEED_SWARD + 20);
 }
 
 // Meadows, dry and fresh, and woods between them.

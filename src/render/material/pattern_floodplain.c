@@ -111,11 +111,8 @@ static Ground meadow(const Material *m, const SurfacePoint *point, float dry)
 // Willows that seedlings on bare sand have become, and the scrub that fills wet hollows.
 static Ground thicket(const Material *m, const SurfacePoint *point)
 {
-    PatternOctaves crowns = pattern_octaves(point, 6.0f, 5, 0.65f, 1.0f, SEED_SWARD + 20);
-    Ground g = {.color = vec3_mul(m->color2, vec3(0.74f, 0.80f, 0.80f))};
-    g.color = vec3_scale(g.color, 1.0f + 0.35f * clampf(crowns.value, -1.2f, 1.2f));
-    g.slope = vec3_scale(crowns.slope, 0.4f);
-    return g;
+    Vec3 color = vec3_mul(m->color2, vec3(0.74f, 0.80f, 0.80f));
+    return ground_crowns(point, 6.0f, color, 0.4f, SEED_SWARD + 20);
 }
 
 static Ground reeds(const SurfacePoint *point)
