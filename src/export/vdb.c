@@ -1,4 +1,4 @@
-// OpenVDB grids of envelopes and guide fields, written by grid_file.h.
+// OpenVDB grids of envelopes, guide fields and clouds, written by grid_file.h.
 #include "export/formats.h"
 
 static bool write(const ExportSource *source, const char *file, const Run *run, Error *e)
@@ -9,5 +9,5 @@ static bool write(const ExportSource *source, const char *file, const Run *run, 
     return grid_file_write(source->grids, file, e);
 }
 
-const ExportFormat vdb_format = {".vdb", "envelopes and guide fields as OpenVDB grids", 0,
+const ExportFormat vdb_format = {".vdb", "envelopes, guide fields and clouds as OpenVDB grids", 0,
                                  EXPORT_GRIDS, write};

@@ -1,6 +1,8 @@
 #include "scene/export_grids.h"
 
 #include "objects/common/own_space.h"
+#include "render/cloud/clouds.h"
+#include "render/world.h"
 #include "scene/build.h"
 
 #include <stdio.h>
@@ -67,15 +69,76 @@ static bool grow_all(const Scene *scene, GridFile *grids, const Run *run, Error 
     return done;
 }
 
+// ---- clouds
+
+typedef struct CloudSample {
+    const CloudSet *clouds;
+    int index;
+} CloudSample;
+
+static float extinction_at(const void *context, Vec3 p)
+{
+    const CloudSample *sample = context;
+    return clouds_extinction_of(sample->clouds, sample->index, p);
+}
+
+static bool add_grown(const Cloud *cloud, int count, const CloudSet *clouds, GridFile *grids,
+                      const Run *run, Error *e)
+{
+    bool done = true;
+    for (int i = 0; done && i < count; i++) {
+        if (cloud[i].kind == CLOUD_GRID) {
+            continue; // is such a file's own
+        }
+        Aabb box;
+        float distance;
+        char name[NAME];
+        clouds_samples_of(clouds, i, &box, &distance);
+        snprintf(name, sizeof name, "clouds/%d/density", i);
+        CloudSample sample = {clouds, i};
+        done = grid_file_add_density(grids, name, box, distance, extinction_at, &sample, run, e);
+    }
+    return done;
+}
+
+static bool lies_on_land(const Scene *scene)
+{
+    for (int i = 0; i < scene->cloud_count; i++) {
+        if (scene->clouds[i].over) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Clouds belong to a whole scene, not to some objects of it.
+static bool add_clouds(const Scene *scene, GridFile *grids, const Run *run, Error *e)
+{
+    if (scene->cloud_count == 0 || scene->whole) {
+        return true;
+    }
+    World *world = lies_on_land(scene) ? scene_build(scene, run, NULL, e) : NULL;
+    if (lies_on_land(scene) && !world) {
+        return false;
+    }
+    const Cloud *cloud = world ? world->cloud : scene->clouds;
+    CloudSet *clouds = clouds_new(cloud, scene->cloud_count, scene->seed, run, e);
+    bool done = clouds && add_grown(cloud, scene->cloud_count, clouds, grids, run, e);
+    clouds_free(clouds);
+    world_free(world);
+    return done;
+}
+
 GridFile *scene_grids(const Scene *scene, const Run *run, Error *e)
 {
     GridFile *grids = grid_file_new(e);
-    bool done = grids && grow_all(scene, grids, run, e);
+    bool done = grids && grow_all(scene, grids, run, e) && add_clouds(scene, grids, run, e);
     if (done && grid_file_count(grids) == 0) {
-        done = error_set(e, ERROR_INPUT,
-                         "no object of '%s' grows in an envelope; trees, corals, sculptures, "
-                         "lightning and vessels do",
-                         scene->file);
+        done = error_set(
+            e, ERROR_INPUT,
+            "nothing of '%s' is a grid: no object grows in an envelope, as trees, corals, "
+            "sculptures, lightning and vessels do, and no clouds grow",
+            scene->file);
     }
     if (!done) {
         grid_file_free(grids);

@@ -1,4 +1,4 @@
-// Exports the envelopes and guide fields of a scene's objects as grids.
+// Exports the envelopes and guide fields of a scene's objects, and its clouds, as grids.
 #ifndef RAMIFY_SCENE_EXPORT_GRIDS_H
 #define RAMIFY_SCENE_EXPORT_GRIDS_H
 
@@ -7,8 +7,8 @@
 
 // Grows the scene. Returns for each element the envelope as a level set, "OBJECT/envelope" or
 // "OBJECT/ELEMENT/envelope" ("oak/crown/envelope"), and the guide field, if any, as vectors,
-// ".../field". ERROR_INPUT when no object grows in an envelope. The caller frees the
-// grids.
+// ".../field"; and for each cloud that is grown its extinction, 1/m, as a fog volume,
+// "clouds/NUMBER/density". ERROR_INPUT when there is none. The caller frees the grids.
 GridFile *scene_grids(const Scene *scene, const Run *run, Error *e);
 
 #endif

@@ -28,9 +28,9 @@ bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bounds, float
 }
 
 bool grid_file_add_density(GridFile *grids, const char *name, Aabb bounds, float voxel,
-                           GridDensity density, const void *context, Error *e)
+                           GridDensity density, const void *context, const Run *run, Error *e)
 {
-    return grids->vdb->add_density(grids, name, bounds, voxel, density, context, e);
+    return grids->vdb->add_density(grids, name, bounds, voxel, density, context, run, e);
 }
 
 bool grid_file_move(GridFile *grids, int64_t first, const Transform *motion, Error *e)

@@ -24,13 +24,13 @@ typedef bool (*GridVectors)(const void *context, Vec3 p, Vec3 *vector);
 bool grid_file_add_vectors(GridFile *grids, const char *name, Aabb bounds, float voxel,
                            GridVectors vectors, const void *context, const Run *run, Error *e);
 
-// Density at point p (m), >= 0.
+// Density at point p (m), >= 0. Called from several threads.
 typedef float (*GridDensity)(const void *context, Vec3 p);
 
 // Samples a density over bounds at this voxel size, m: a fog volume. Only voxels with some are
 // active.
 bool grid_file_add_density(GridFile *grids, const char *name, Aabb bounds, float voxel,
-                           GridDensity density, const void *context, Error *e);
+                           GridDensity density, const void *context, const Run *run, Error *e);
 
 // Transforms the grids from number first on, rotating their vectors.
 bool grid_file_move(GridFile *grids, int64_t first, const Transform *motion, Error *e);

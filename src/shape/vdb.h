@@ -47,7 +47,7 @@ typedef struct VdbGridFiles {
     bool (*add_vectors)(GridFile *grids, const char *name, Aabb bounds, float voxel,
                         GridVectors vectors, const void *context, const Run *run, Error *e);
     bool (*add_density)(GridFile *grids, const char *name, Aabb bounds, float voxel,
-                        GridDensity density, const void *context, Error *e);
+                        GridDensity density, const void *context, const Run *run, Error *e);
     bool (*move)(GridFile *grids, int64_t first, const Transform *motion, Error *e);
     bool (*write)(const GridFile *grids, const char *file, Error *e);
 } VdbGridFiles;

@@ -9,6 +9,7 @@
 #include "shape/vdb_internal.h"
 
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <new>
 #include <sstream>
@@ -75,11 +76,48 @@ void name_after_contents(std::string &bytes)
     }
 }
 
-// Voxels of a plane of constant x.
-struct Plane {
-    std::vector<Vec3> value;
-    std::vector<char> active;
-};
+// Sets the value at point p (m); returns false where there is none.
+template <typename Grid>
+using Sample = std::function<bool(Vec3 p, typename Grid::ValueType *value)>;
+
+// A grid of samples over bounds, of which those with a value are active. Cut short when the run is
+// cancelled.
+template <typename Grid>
+typename Grid::Ptr sample_box(const char *name, Aabb bounds, float voxel, const Run *run,
+                              const Sample<Grid> &sample)
+{
+    typename Grid::Ptr grid = Grid::create();
+    auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+    transform->postTranslate(openvdb::Vec3d(bounds.low.x, bounds.low.y, bounds.low.z));
+    grid->setTransform(transform);
+    grid->setName(name);
+    const float rounding = 1e-3f; // of sides that are whole voxels
+    Vec3 size = vec3_scale(vec3_sub(bounds.high, bounds.low), 1.0f / voxel);
+    int nx = static_cast<int>(ceilf(size.x - rounding)) + 1;
+    int ny = static_cast<int>(ceilf(size.y - rounding)) + 1;
+    int nz = static_cast<int>(ceilf(size.z - rounding)) + 1;
+    size_t area = static_cast<size_t>(ny) * static_cast<size_t>(nz);
+    std::vector<typename Grid::ValueType> value(area);
+    std::vector<char> active(area);
+    auto accessor = grid->getAccessor();
+    for (int x = 0; x < nx && !run_is_cancelled(run); x++) {
+#pragma omp parallel for num_threads(run->threads) schedule(static)
+        for (int y = 0; y < ny; y++) {
+            for (int z = 0; z < nz; z++) {
+                Vec3 p = vec3_madd(bounds.low, voxel, vec3(float(x), float(y), float(z)));
+                size_t at = static_cast<size_t>(y) * static_cast<size_t>(nz) + size_t(z);
+                active[at] = sample(p, &value[at]);
+            }
+        }
+        for (size_t at = 0; at < area; at++) {
+            if (active[at]) {
+                accessor.setValueOn(Coord(x, static_cast<int>(at) / nz, static_cast<int>(at) % nz),
+                                    value[at]);
+            }
+        }
+    }
+    return grid;
+}
 
 // The library composes the names of its types once, in streams that pass over a lack of memory: a
 // name cut short would make files that nothing reads.
@@ -123,66 +161,31 @@ bool add_vectors(GridFile *grids, const char *name, Aabb bounds, float voxel, Gr
                  const void *context, const Run *run, Error *e)
 {
     return guarded(e, [&] {
-        auto grid = openvdb::Vec3SGrid::create();
-        auto transform = openvdb::math::Transform::createLinearTransform(voxel);
-        transform->postTranslate(openvdb::Vec3d(bounds.low.x, bounds.low.y, bounds.low.z));
-        grid->setTransform(transform);
-        grid->setName(name);
+        auto vector_at = [&](Vec3 p, openvdb::Vec3s *value) {
+            Vec3 v;
+            bool has = vectors(context, p, &v);
+            *value = has ? openvdb::Vec3s(v.x, v.y, v.z) : *value;
+            return has;
+        };
+        auto grid = sample_box<openvdb::Vec3SGrid>(name, bounds, voxel, run, vector_at);
         grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
-        Vec3 size = vec3_sub(bounds.high, bounds.low);
-        int nx = static_cast<int>(ceilf(size.x / voxel)) + 1;
-        int ny = static_cast<int>(ceilf(size.y / voxel)) + 1;
-        int nz = static_cast<int>(ceilf(size.z / voxel)) + 1;
-        size_t area = static_cast<size_t>(ny) * static_cast<size_t>(nz);
-        Plane plane{std::vector<Vec3>(area), std::vector<char>(area)};
-        auto accessor = grid->getAccessor();
-        for (int x = 0; x < nx && !run_is_cancelled(run); x++) {
-#pragma omp parallel for num_threads(run->threads) schedule(static)
-            for (int y = 0; y < ny; y++) {
-                for (int z = 0; z < nz; z++) {
-                    Vec3 p = vec3_madd(bounds.low, voxel, vec3(float(x), float(y), float(z)));
-                    size_t at = static_cast<size_t>(y) * static_cast<size_t>(nz) + size_t(z);
-                    plane.active[at] = vectors(context, p, &plane.value[at]);
-                }
-            }
-            for (size_t at = 0; at < area; at++) {
-                if (plane.active[at]) {
-                    const Vec3 &v = plane.value[at];
-                    Coord c(x, static_cast<int>(at) / nz, static_cast<int>(at) % nz);
-                    accessor.setValueOn(c, openvdb::Vec3s(v.x, v.y, v.z));
-                }
-            }
-        }
         own(grids).grids.push_back(grid);
         return !run_is_cancelled(run) || run_cancel_error(e);
     });
 }
 
 bool add_density(GridFile *grids, const char *name, Aabb bounds, float voxel, GridDensity density,
-                 const void *context, Error *e)
+                 const void *context, const Run *run, Error *e)
 {
     return guarded(e, [&] {
-        auto grid = openvdb::FloatGrid::create();
-        auto transform = openvdb::math::Transform::createLinearTransform(voxel);
-        transform->postTranslate(openvdb::Vec3d(bounds.low.x, bounds.low.y, bounds.low.z));
-        grid->setTransform(transform);
-        grid->setName(name);
+        auto density_at = [&](Vec3 p, float *value) {
+            *value = density(context, p);
+            return *value > 0.0f;
+        };
+        auto grid = sample_box<openvdb::FloatGrid>(name, bounds, voxel, run, density_at);
         grid->setGridClass(openvdb::GRID_FOG_VOLUME);
-        Vec3 size = vec3_scale(vec3_sub(bounds.high, bounds.low), 1.0f / voxel);
-        auto accessor = grid->getAccessor();
-        for (int x = 0; x <= static_cast<int>(size.x); x++) {
-            for (int y = 0; y <= static_cast<int>(size.y); y++) {
-                for (int z = 0; z <= static_cast<int>(size.z); z++) {
-                    Vec3 p = vec3_madd(bounds.low, voxel, vec3(float(x), float(y), float(z)));
-                    float value = density(context, p);
-                    if (value > 0.0f) {
-                        accessor.setValueOn(Coord(x, y, z), value);
-                    }
-                }
-            }
-        }
         own(grids).grids.push_back(grid);
-        return true;
+        return !run_is_cancelled(run) || run_cancel_error(e);
     });
 }
 

@@ -14,6 +14,7 @@ result() { # result NAME: by the status of the command before
 }
 
 cat >scene.yaml <<'END'
+clouds: [{kind: stratus, size: 1000, thickness: 60}]
 objects:
   - name: oak
     tree:
@@ -44,6 +45,6 @@ loaded = volume.grids.load()
 print("GRIDS", loaded, sorted((grid.name, grid.data_type) for grid in volume.grids))
 END
 blender -b --factory-startup -P look.py >log 2>&1
-grep -qF "GRIDS True [('oak/crown/envelope', 'FLOAT'), ('oak/crown/field', 'VECTOR_FLOAT'), ('oak/roots/envelope', 'FLOAT'), \
+grep -qF "GRIDS True [('clouds/0/density', 'FLOAT'), ('oak/crown/envelope', 'FLOAT'), ('oak/crown/field', 'VECTOR_FLOAT'), ('oak/roots/envelope', 'FLOAT'), \
 ('oak/trunk/envelope', 'FLOAT')]" log
 result vdb_blender_reads_all_grids

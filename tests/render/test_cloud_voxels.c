@@ -66,8 +66,8 @@ static int set_up(void **state)
     Aabb box = {vec3(-8, -4, -8), vec3(12, 10, 8)};
     Aabb small = {vec3(0, 0, 0), vec3(1, 1, 1)};
     bool done = grids && mkdtemp(folder) &&
-                grid_file_add_density(grids, "box", box, voxel, in_box, NULL, &e) &&
-                grid_file_add_density(grids, "ball", box, voxel, in_ball, NULL, &e) &&
+                grid_file_add_density(grids, "box", box, voxel, in_box, NULL, &run, &e) &&
+                grid_file_add_density(grids, "ball", box, voxel, in_ball, NULL, &run, &e) &&
                 add_level_set(grids, &e) &&
                 grid_file_add_vectors(grids, "velocity", small, 0.5f, is_vector, NULL, &run, &e);
     snprintf(file, sizeof file, "%s/cloud.vdb", folder);

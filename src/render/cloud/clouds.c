@@ -64,6 +64,25 @@ float clouds_extinction(const CloudSet *clouds, Vec3 p)
     return sum;
 }
 
+float clouds_extinction_of(const CloudSet *clouds, int index, Vec3 p)
+{
+    return cloud_grid_extinction(&clouds->grid[index], p, true);
+}
+
+void clouds_samples_of(const CloudSet *clouds, int index, Aabb *box, float *distance)
+{
+    const CloudGrid *g = &clouds->grid[index];
+    *distance = 0.5f * g->voxel; // half the coarse form's, as billows are about that wide
+    Vec3 size =
+        vec3_scale(vec3((float)g->count[0], (float)g->count[1], (float)g->count[2]), g->voxel);
+    Vec3 low = g->low;
+    if (g->repeats && !g->pooled) { // around the origin; fog in valleys begins with its land
+        low.x -= 0.5f * size.x;
+        low.z -= 0.5f * size.z;
+    }
+    *box = (Aabb){low, vec3_sub(vec3_add(low, size), vec3_splat(*distance))};
+}
+
 // ---- tracking ----
 
 static float draw(uint64_t *key)

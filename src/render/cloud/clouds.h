@@ -36,6 +36,13 @@ float clouds_pass(const CloudSet *clouds, const CloudRay *ray, float scale, uint
 // Extinction of all clouds at a place, 1/m.
 float clouds_extinction(const CloudSet *clouds, Vec3 p);
 
+// Extinction of cloud number index alone at a place, 1/m.
+float clouds_extinction_of(const CloudSet *clouds, int index, Vec3 p);
+
+// Box of cloud number index, which is grown, and distance of samples that show its form, m. Of one
+// that repeats, the samples of a period in x and z: the next copy's begin one distance farther.
+void clouds_samples_of(const CloudSet *clouds, int index, Aabb *box, float *distance);
+
 // The share of light that a ray loses, by steps through the clouds without wisps, and the mean
 // distance at which it does, m.
 float clouds_seen(const CloudSet *clouds, const CloudRay *ray, float *distance);
