@@ -93,7 +93,8 @@ bool landscape_step(Landscape *land, const LandscapeRates *rates, double time, b
     if ((reroute || !land->route) && !landscape_find_route(land, rates->seed, run, e)) {
         return false;
     }
-    return landscape_streams(land, rates, time, e) && landscape_slopes(land, rates, time, run, e);
+    return landscape_streams(land, rates, time, e) && landscape_debris(land, rates, time, run, e) &&
+           landscape_slopes(land, rates, time, run, e);
 }
 
 bool landscape_slopes_only(Landscape *land, const LandscapeRates *rates, double time,

@@ -32,19 +32,22 @@ typedef struct Landscape {
 
 // Per unit of time, which is the caller's.
 typedef struct LandscapeRates {
-    double uplift;     // m, where the land is not a base
-    double incision;   // K of rock of hardness 0, for E = K sqrt(area) slope
-    double loose;      // K of sediment
-    double least_area; // m^2: below about this catchment water does not gather to a stream
-    double deposition; // G of Yuan et al.: 0 = all that is eroded leaves, 1 = much is dropped
-    double retreat;    // m: by how much a face of rock of hardness 0 weathers back
-    double rubble;     // share of weathered and fallen rock that stays as rubble; the rest is fine
-                       // and leaves with the water
-    double repose;     // tangent of rubble's angle of repose
-    double wash;       // share of the loose cover that weathers to fines and leaves
-    double soil;       // m: rock that turns to soil on bare ground
-    double creep;      // m^2: diffusivity of soil
-    uint64_t seed;     // of the water's choice among nearly equal ways
+    double uplift;       // m, where the land is not a base
+    double incision;     // K of rock of hardness 0, for E = K sqrt(area) slope
+    double loose;        // K of sediment
+    double least_area;   // m^2: below about this catchment water does not gather to a stream
+    double debris;       // K of debris flows, for E = K area^1/4 (slope - that of rest); 0 = none
+    double least_debris; // m^2: below about this catchment debris does not gather
+    double joints;       // by how much weak rock stands less steep, and strong rock steeper; 0..1
+    double deposition;   // G of Yuan et al.: 0 = all that is eroded leaves, 1 = much is dropped
+    double retreat;      // m: by how much a face of rock of hardness 0 weathers back
+    double rubble; // share of weathered and fallen rock that stays as rubble; the rest is fine
+                   // and leaves with the water
+    double repose; // tangent of rubble's angle of repose
+    double wash;   // share of the loose cover that weathers to fines and leaves
+    double soil;   // m: rock that turns to soil on bare ground
+    double creep;  // m^2: diffusivity of soil
+    uint64_t seed; // of the water's choice among nearly equal ways
 } LandscapeRates;
 
 // Rock at height 0, no sediment, no base. size: m, of the side. Free with landscape_free.

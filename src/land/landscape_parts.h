@@ -20,6 +20,10 @@ bool landscape_find_route(Landscape *land, uint64_t seed, const Run *run, Error 
 // landscape_streams.c
 bool landscape_streams(Landscape *land, const LandscapeRates *rates, double time, Error *e);
 
+// landscape_debris.c
+bool landscape_debris(Landscape *land, const LandscapeRates *rates, double time, const Run *run,
+                      Error *e);
+
 // landscape_slopes.c
 bool landscape_slopes(Landscape *land, const LandscapeRates *rates, double time, const Run *run,
                       Error *e);

@@ -50,6 +50,15 @@ static double weathering(double hardness)
     return 0.03 + 0.97 * soft * soft;
 }
 
+// How much steeper than the stable profile of its beds the rock of sample i stands: strong rock
+// stands as ribs and buttresses, rock that joints have cut lies back between them.
+static double steeper(const Landscape *land, const LandscapeRates *rates, int64_t i)
+{
+    const double least = 0.55, most = 1.9;
+    double factor = 1.0 + rates->joints * (1.0 - (double)land->weakness[i]);
+    return factor < least ? least : factor > most ? most : factor;
+}
+
 // The rock's height after weathering and falling.
 static double worn(const Landscape *land, const LandscapeRates *rates, int column, int row,
                    double time)
@@ -62,8 +71,9 @@ static double worn(const Landscape *land, const LandscapeRates *rates, int colum
     }
     double here = run_of(land, i, rock);
     double to_x = x < rock ? run_of(land, i, x) : here, to_z = z < rock ? run_of(land, i, z) : here;
-    double stable = steepest_stable(x < rock ? to_x : here + land->cell,
-                                    z < rock ? to_z : here + land->cell, land->cell);
+    double reach = land->cell * steeper(land, rates, i);
+    double stable =
+        steepest_stable(x < rock ? to_x : here + reach, z < rock ? to_z : here + reach, reach);
     double gradient =
         sqrt((here - to_x) * (here - to_x) + (here - to_z) * (here - to_z)) / land->cell;
     gradient = gradient < 1.0 ? gradient : 1.0;

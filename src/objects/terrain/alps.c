@@ -39,6 +39,26 @@ static void set_weakness(const Range *r, Landscape *land, const Run *run)
     }
 }
 
+// Walls break along joints and crushed zones, which are larger and fewer than what leads rivers:
+// between them stand ribs and buttresses.
+static void set_joints(const Range *r, Landscape *land, const Run *run)
+{
+    uint64_t key = random_key(r->terrain->seed, STREAM_JOINTS);
+    int octaves = 4;
+    for (int cells = ICE_CELLS; cells < land->side - 1; cells *= 2) {
+        octaves++; // down to two cells
+    }
+#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
+    for (int row = 0; row < land->side; row++) {
+        for (int column = 0; column < land->side; column++) {
+            float x = (float)((land->corner + column * land->cell) / r->size);
+            float z = (float)((land->corner + row * land->cell) / r->size);
+            float n = sparse_noise_fractal(13.0f * x, 13.0f * z, octaves, 0.62f, 0.0f, key);
+            land->weakness[(int64_t)row * land->side + column] = clampf(1.0f + n, 0.2f, 2.5f);
+        }
+    }
+}
+
 // Rivers in a rising block, nearly in steady state. Stream power is linear in heights, so the
 // result is scaled to the relief. Ground as steep as rock can be is left to later stages.
 static bool cut_by_rivers(const Range *r, Landscape *land, const Run *run, Error *e)
@@ -124,22 +144,31 @@ static bool weather(const Range *r, Landscape *land, double share, const Run *ru
     enum { STEPS = 14 };
     const EvolutionParams *evolution = &r->params.evolution;
     double age = (double)r->params.alps.age, cell = land->cell;
+    bool carves = evolution->debris > 0.0f;
     LandscapeRates rates = {.incision = 0.10 * (1.0 - 0.7 * age) * (double)evolution->streams,
                             .loose = 0.4 * (double)evolution->streams,
                             .least_area = 2.0e4,
+                            .debris = 40.0 * (1.0 - age) * (double)evolution->debris,
+                            .least_debris = 5.0e3,
+                            .joints = carves ? 0.8 * (1.0 - age) : 0.0,
                             .deposition = (double)evolution->deposition,
                             .retreat = 25.0 * (1.0 + 3.0 * age) * (double)evolution->weathering,
                             .rubble = 0.45 + (double)evolution->rubble,
                             .repose = r->repose,
                             .soil = (0.3 + 12.0 * age) * (double)evolution->soil,
-                            .creep = (30.0 + 6.0e4 * age * age) * (double)evolution->soil,
-                            .seed = random_key(r->terrain->seed, STREAM_WATER_WAYS)};
+                            .creep = (30.0 + 6.0e4 * age * age) * (double)evolution->soil};
     rates.rubble = rates.rubble < 1.0 ? rates.rubble : 1.0;
+    uint64_t ways = random_key(r->terrain->seed, STREAM_WATER_WAYS);
     double most = 0.3 * cell / rates.retreat; // no face moves by half a cell
     int steps = 1 + (int)(share / most);
     steps = steps > STEPS ? steps : STEPS;
+    if (carves) {
+        set_joints(r, land, run);
+    }
     for (int i = 0; i < steps; i++) {
         run_progress(run, "erosion", (double)i / steps);
+        // Debris spreads over its fans by turns.
+        rates.seed = carves ? random_key(ways, (uint64_t)i / 2) : ways;
         if (!landscape_step(land, &rates, share / steps, i % 2 == 0, run, e)) {
             return false;
         }

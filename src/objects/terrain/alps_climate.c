@@ -45,7 +45,8 @@ static float soft(float x)
 }
 
 // Adds what a hollow of about this width holds, and what lies to the lee and looks north in it.
-static void add_scale(HeightField *field, const float *mean, float width, Vec2 wind, int threads)
+static void add_scale(HeightField *field, const float *mean, float width, float deep, Vec2 wind,
+                      int threads)
 {
     int columns = field->columns;
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -59,13 +60,13 @@ static void add_scale(HeightField *field, const float *mean, float width, Vec2 w
             float dz = (mean[south] - mean[north]) / (2.0f * field->cell.y);
             float hollow = soft(8.0f * (mean[i] - field->height[i]) / width);
             float lee = soft(-(dx * wind.x + dz * wind.y));
-            field->climate[i] += 0.055f * hollow + 0.03f * lee + 0.03f * soft(dz);
+            field->climate[i] += deep * hollow + 0.03f * lee + 0.03f * soft(dz);
         }
     }
 }
 
-bool terrain_find_climate(const TerrainParams *params, float wind_azimuth, HeightField *field,
-                          const Run *run, Error *e)
+bool terrain_find_climate(const TerrainParams *params, float wind_azimuth, float hollow,
+                          HeightField *field, const Run *run, Error *e)
 {
     int64_t count = height_field_count(field);
     field->climate = memory_alloc(count, sizeof *field->climate, e);
@@ -86,7 +87,7 @@ bool terrain_find_climate(const TerrainParams *params, float wind_azimuth, Heigh
             float metres = width[k] * params->size;
             int reach = (int)(0.5f * metres / field->cell.x + 0.5f);
             blur(field, mean, other, reach > 1 ? reach : 1, run->threads);
-            add_scale(field, mean, metres, wind, run->threads);
+            add_scale(field, mean, metres, hollow, wind, run->threads);
         }
     }
     free(mean);

@@ -78,14 +78,44 @@ static int copy_beds(StrataBed *beds, const StrataBed *from, size_t count, float
     return (int)count;
 }
 
-static int own_beds(const TerrainParams *params, StrataBed *beds)
+// Massive beds that stand as walls, thin ones between them that make ledges; shares of a cycle.
+static const StrataBed ALPS[] = {{0.21f, 0.64f, 66.0f, {0.30f, 0.29f, 0.27f}, 0.0f},
+                                 {0.035f, 0.54f, 47.0f, {0.27f, 0.26f, 0.24f}, 0.0f},
+                                 {0.13f, 0.61f, 63.0f, {0.30f, 0.29f, 0.27f}, 0.0f},
+                                 {0.022f, 0.55f, 49.0f, {0.27f, 0.26f, 0.24f}, 0.0f},
+                                 {0.27f, 0.64f, 67.0f, {0.30f, 0.29f, 0.27f}, 0.0f},
+                                 {0.050f, 0.53f, 46.0f, {0.27f, 0.26f, 0.24f}, 0.0f},
+                                 {0.10f, 0.60f, 62.0f, {0.30f, 0.29f, 0.27f}, 0.0f},
+                                 {0.028f, 0.55f, 48.0f, {0.27f, 0.26f, 0.24f}, 0.0f},
+                                 {0.155f, 0.62f, 65.0f, {0.30f, 0.29f, 0.27f}, 0.0f}};
+
+// Age makes them rotten, all alike. Land that no debris carves is of one rock.
+static int alps_beds(const TerrainParams *params, StrataBed *beds)
 {
-    if (params->form == TERRAIN_ALPS) { // one rock, which age makes rotten
+    if (params->evolution.debris <= 0.0f) {
         beds[0] = (StrataBed){.thickness = 1.0f,
                               .hardness = 0.6f,
                               .slope = lerpf(53.0f, 34.0f, params->alps.age),
                               .color = {0.3f, 0.29f, 0.27f}};
         return 1;
+    }
+    enum { CYCLES = 5 };
+    const int kinds = (int)(sizeof ALPS / sizeof *ALPS), count = CYCLES * kinds;
+    float height = 2.0f * (params->strata.top - params->relief) + 1.4f * params->relief;
+    float age = smoothstepf(0.0f, 0.7f, params->alps.age);
+    for (int i = 0; i < count; i++) {
+        beds[i] = ALPS[i % kinds];
+        beds[i].thickness *= height / CYCLES;
+        beds[i].hardness = lerpf(beds[i].hardness, 0.6f, age);
+        beds[i].slope = lerpf(beds[i].slope, 34.0f, age);
+    }
+    return count;
+}
+
+static int own_beds(const TerrainParams *params, StrataBed *beds)
+{
+    if (params->form == TERRAIN_ALPS) {
+        return alps_beds(params, beds);
     }
     if (params->form == TERRAIN_VOLCANO) { // tephra and lava, baked
         beds[0] = (StrataBed){

@@ -148,8 +148,10 @@ static bool finish_survey(Terrain *terrain, HeightField *field, const Run *run, 
 static bool finish_alps(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
     const TerrainParams *params = terrain->params;
+    // Avalanches fill couloirs.
+    float hollow = params->evolution.debris > 0.0f ? 0.09f : 0.055f;
     return height_field_fill(field, 1e-4f, e) &&
-           terrain_find_climate(params, params->alps.wind, field, run, e);
+           terrain_find_climate(params, params->alps.wind, hollow, field, run, e);
 }
 
 // A volcano stands in warmer air than alps do: snow stays on its upper fifth.
@@ -157,7 +159,7 @@ static bool finish_volcano(Terrain *terrain, HeightField *field, const Run *run,
 {
     const TerrainParams *params = terrain->params;
     bool done = terrain_fill_shallow_pits(field, 12.0f, e) &&
-                terrain_find_climate(params, params->volcano.wind, field, run, e);
+                terrain_find_climate(params, params->volcano.wind, 0.055f, field, run, e);
     for (int64_t i = 0; done && i < height_field_count(field); i++) {
         field->climate[i] *= 0.6f;
     }

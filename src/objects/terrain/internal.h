@@ -257,6 +257,9 @@ float terrain_shore(const Terrain *terrain, float x, float z);
 bool terrain_erode(HeightField *field, const TerrainErosionParams *params, const Run *run,
                    Error *e);
 
+// walls.c: couloirs and scree by erosion.debris; also what is loose then, to field->wetness.
+bool terrain_carve_walls(const Terrain *terrain, HeightField *field, const Run *run, Error *e);
+
 // beds.c: the beds that the parameters give, or the landform's own, with their top in the plateau;
 // *strata stays NULL without any.
 bool terrain_lay_beds(const TerrainParams *params, Strata **strata, Error *e);
@@ -290,8 +293,9 @@ bool terrain_fill_shallow_pits(HeightField *field, float depth, Error *e);
 // volcano_measure.c: after terrain_evolve_volcano.
 bool terrain_measure_volcano(const Terrain *terrain, MeasureList *list, Error *e);
 // alps_climate.c: fills field->climate: altitudes as snow feels them. It drifts with a wind from
-// this azimuth, degrees clockwise from north.
-bool terrain_find_climate(const TerrainParams *params, float wind, HeightField *field,
+// this azimuth, degrees clockwise from north. hollow: share of the relief by which snow lies lower
+// in a deep hollow.
+bool terrain_find_climate(const TerrainParams *params, float wind, float hollow, HeightField *field,
                           const Run *run, Error *e);
 
 // measure.c: the exponent of the valleys' profiles.

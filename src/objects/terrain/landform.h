@@ -125,6 +125,7 @@ typedef struct DeltaParams {
 // How the land evolves; factors on the landform's own rates.
 typedef struct EvolutionParams {
     float streams;    // incision by tributaries
+    float debris;     // incision of steep rock by debris flows and rockfall
     float weathering; // retreat of faces
     float rubble;     // share of fallen rock that stays as rubble, 0..1
     float repose;     // degrees, of rubble

@@ -55,6 +55,7 @@ TerrainParams terrain_params_default(void)
         .delta = {.sand = 0.3f, .age = 1.0f, .plain = 0.14f},
         .dunes = {.kind = DUNE_TRANSVERSE, .wind = 270.0f, .spread = 120.0f, .age = 1.0f},
         .evolution = {.streams = 1.0f,
+                      .debris = 1.0f,
                       .weathering = 1.0f,
                       .rubble = 0.25f,
                       .repose = 34.0f,
@@ -76,6 +77,27 @@ static void resolve_dunes(DuneParams *dunes, float size)
     dunes->sand = dunes->sand > 0.0f ? dunes->sand : depth[dunes->kind] * dunes->spacing;
 }
 
+// The beds' top in the middle, so that a stack that dips reaches over the land's high side.
+static float top_over(const TerrainParams *resolved, float reach)
+{
+    float sine, cosine;
+    exact_sincos(resolved->strata.dip * 0.017453292f, &sine, &cosine);
+    return resolved->relief + reach * resolved->size * sine / cosine;
+}
+
+static void resolve_alps(const TerrainParams *params, TerrainParams *resolved)
+{
+    StrataParams *strata = &resolved->strata;
+    if (strata->bed_count > 0 || params->evolution.debris <= 0.0f) {
+        return;
+    }
+    if (strata->dip == 0.0f) {
+        strata->dip = 7.0f;
+        strata->dip_azimuth = 115.0f;
+    }
+    strata->top = params->strata.top != 0.0f ? params->strata.top : top_over(resolved, 0.6f);
+}
+
 // A coast's own beds dip obliquely to the shore; their stack reaches over the land's high side.
 static void resolve_coast(const TerrainParams *params, TerrainParams *resolved)
 {
@@ -91,10 +113,7 @@ static void resolve_coast(const TerrainParams *params, TerrainParams *resolved)
         strata->dip = 8.0f;
         strata->dip_azimuth = 90.0f * (float)(coast->sea - SIDE_NORTH) + 65.0f;
     }
-    float sine, cosine;
-    exact_sincos(strata->dip * 0.017453292f, &sine, &cosine);
-    float rise = 0.65f * params->size * sine / cosine;
-    strata->top = params->strata.top != 0.0f ? params->strata.top : resolved->relief + rise;
+    strata->top = params->strata.top != 0.0f ? params->strata.top : top_over(resolved, 0.65f);
 }
 
 TerrainParams terrain_params_resolve(const TerrainParams *params)
@@ -145,6 +164,9 @@ TerrainParams terrain_params_resolve(const TerrainParams *params)
         resolved.canyon.width =
             params->canyon.width > 0.0f ? params->canyon.width : 6.0f * resolved.relief;
         resolved.strata.top = params->strata.top != 0.0f ? params->strata.top : resolved.relief;
+    }
+    if (params->form == TERRAIN_ALPS) {
+        resolve_alps(params, &resolved);
     }
     if (params->form == TERRAIN_COAST) {
         resolve_coast(params, &resolved);

@@ -334,6 +334,10 @@ static const Key EROSION_KEYS[] = {
      .doc = "How much of the rock above the talus angle falls down; 0 = nothing, 1 = most."},
     {KEY_OF(TerrainErosionParams, talus, "talus", KEY_FLOAT), .low = 1, .high = 89,
      .unit = "degrees", .doc = "Talus angle: the steepest slope on which rubble stays."},
+    {KEY_OF(TerrainErosionParams, debris, "debris", KEY_FLOAT), .high = 10,
+     .doc = "How deep debris flows and rockfall cut couloirs into steep walls, with cones of scree "
+            "at their feet: 0 = not at all, 1 = as in the Alps. Land of form: alps has "
+            "evolution.debris for it."},
     {0},
 };
 

@@ -457,6 +457,10 @@ const Table delta_table = {
 static const Key EVOLUTION_KEYS[] = {
     {KEY_OF(EvolutionParams, streams, "streams", KEY_FLOAT), .high = 100,
      .doc = "Factor on the erosion by streams."},
+    {KEY_OF(EvolutionParams, debris, "debris", KEY_FLOAT), .high = 100,
+     .doc = "Factor on debris flows and rockfall, which cut couloirs into the walls of form: alps "
+            "and build cones of scree at their feet. 0 = none: rock of one kind without beds or "
+            "joints, as plane as it breaks."},
     {KEY_OF(EvolutionParams, weathering, "weathering", KEY_FLOAT), .high = 100,
      .doc = "Factor on the retreat of faces, of soft beds most."},
     {KEY_OF(EvolutionParams, rubble, "rubble", KEY_FLOAT), .high = 1,

@@ -132,6 +132,7 @@ typedef struct TerrainErosionParams {
     float streams; // 0..1: depth of gullies cut by water (stream power law)
     float thermal; // 0..1: how far slopes steeper than `talus` relax to it
     float talus;   // degrees
+    float debris;  // debris flows and rockfall that cut couloirs; 0 = none, 1 = as in the Alps
 } TerrainErosionParams;
 
 typedef struct TerrainTerraceParams {

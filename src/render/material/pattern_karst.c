@@ -6,6 +6,7 @@
 #include "render/material/pattern_crags.h"
 #include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
+#include "render/material/pattern_shore.h"
 
 #include <stddef.h>
 
@@ -99,6 +100,7 @@ void pattern_karst(const Material *m, const SurfacePoint *point, PatternShade *s
     other = fields(m, point, patch);
     float loose = smoothstepf(0.2f, 0.6f, point->site.y) * smoothstepf(0.8f, 0.93f, upright);
     g = ground_blend(g, &other, loose);
+    g = pattern_shore(point, vec3(0.29f, 0.28f, 0.26f), m->pattern_depth, g);
     shade->color = g.color;
     shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
 }

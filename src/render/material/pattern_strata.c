@@ -3,7 +3,9 @@
 // (SurfacePoint.site.y), and soil with shrubs where it is level.
 #include "base/strata.h"
 #include "render/material/pattern.h"
+#include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
+#include "render/material/pattern_shore.h"
 
 #include <stddef.h>
 
@@ -50,11 +52,6 @@ static float lamina_tone(const Strata *strata, float level, float footprint)
            0.3f * pattern_lamina(level, 0.27f * lamina, footprint, 0.75f, seed + 13) +
            0.2f * pattern_lamina(level, 0.07f * lamina, footprint, 0.75f, seed + 17);
 }
-
-typedef struct Ground {
-    Vec3 color;
-    Vec3 slope; // of its relief, per metre
-} Ground;
 
 static float scale_of(const Material *m)
 {
@@ -146,6 +143,7 @@ void pattern_strata(const Material *m, const SurfacePoint *point, PatternShade *
     g.slope = vec3_lerp(g.slope, other.slope, even);
     float green = shrubs(point, 0.12f * smoothstepf(0.72f, 0.85f, upright) + 0.42f * even, 6.5f);
     g.color = vec3_lerp(g.color, m->color2, green);
+    g = pattern_shore(point, vec3_scale(m->color, 0.9f), 1.0f, g);
     shade->color = g.color;
     float bump = m->pattern_depth > 0.0f ? 1.0f - point->displaced : 0.0f;
     shade->normal = pattern_tilt(shade->normal, vec3_scale(g.slope, bump));

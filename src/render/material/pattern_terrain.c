@@ -64,7 +64,7 @@ static Face rock(const Material *m, const SurfacePoint *point, Vec3 color, float
     float tone = 0.5f + 0.9f * laminae + 0.22f * crags->tone + 0.12f * grain.value;
     f.ground.color = vec3_lerp(color, m->color2, clampf(tone, 0.0f, 1.0f));
     float light = (1.0f + 0.16f * crags->tone + 0.12f * clampf(grain.value, -1.2f, 1.2f)) *
-                  (1.0f - 0.7f * crags->crevice);
+                  (1.0f - 0.5f * crags->crevice);
     f.ground.color = vec3_scale(f.ground.color, clampf(light, 0.2f, 1.6f));
     f.ground.slope = vec3_madd(vec3_scale(crags->slope, 0.9f), 0.012f * size, grain.slope);
     return f;
@@ -126,8 +126,8 @@ static float mountain_scale(const Material *m)
 
 #define MOUNTAIN_BLOCKS 0.22f // relative to the scale
 #define MOUNTAIN_BEDS 0.55f
-#define ALPS_BLOCKS 0.85f
-#define ALPS_BEDS 1.1f
+#define ALPS_BLOCKS 0.42f // the land's own couloirs and ledges are larger
+#define ALPS_BEDS 0.9f
 
 float pattern_mountain_blocks(const Material *m)
 {
@@ -212,28 +212,32 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
     // Water and dust darken faces along the chutes.
     g.color = vec3_scale(g.color, 1.0f - 0.35f * smoothstepf(0.1f, 0.6f, chutes.value));
     g.slope = vec3_madd(g.slope, 0.04f * scale, chutes.slope);
+    float even = upright;
     upright += 0.25f * face.crags.ledge;
-    float lies = smoothstepf(0.72f, 0.84f, upright + 0.10f * ragged) *
-                 smoothstepf(0.12f, 0.4f, loose + 0.25f * ragged);
+    float covered = smoothstepf(0.12f, 0.4f, loose + 0.25f * ragged);
+    float lies = smoothstepf(0.68f, 0.78f, upright + 0.06f * ragged) * covered;
     Ground other = scree(m, point, shade->color, scale);
-    other.color = vec3_scale(other.color, 1.0f + 0.18f * chutes.value);
+    other.color = vec3_scale(other.color, 1.0f + 0.22f * chutes.value + 0.12f * broad.value);
     g = ground_blend(g, &other, lies);
     if (m->grass_line > 0.0f) {
         float rise = felt + 0.09f * ragged - 0.05f * loose;
         float green = smoothstepf(m->grass_line + 0.05f, m->grass_line - 0.09f, rise) *
-                      smoothstepf(0.66f, 0.80f, upright + 0.12f * ragged);
+                      smoothstepf(0.69f, 0.82f, upright + 0.10f * ragged);
+        // Scree near its angle of repose moves too often for turf; fans below are old and green.
+        float moves = smoothstepf(0.935f, 0.875f, even + 0.05f * ragged + 0.04f * chutes.value);
+        green *= 1.0f - 0.92f * moves * covered;
         other = grass(point, scale, 0.4f * loose, felt / m->grass_line);
         g = ground_blend(g, &other, green);
     }
     if (m->snow_line > 0.0f) {
-        // Far below the line only hollows that hold it through the summer; far above all but walls.
-        // It slides out of the chutes' ribs and stays in what lies between them.
-        float cold = felt - m->snow_line + 0.07f * broad.value + 0.02f * fray.value;
-        float least = lerpf(0.80f, 0.46f, smoothstepf(-0.04f, 0.22f, cold));
-        float kept = upright - 0.25f * chutes.value + 0.03f * fray.value;
+        // Far below the line only couloirs and hollows that hold it through the summer (site.x is
+        // higher there); far above all but walls and ribs.
+        float cold = felt - m->snow_line + 0.025f * broad.value + 0.008f * fray.value;
+        float least = lerpf(0.80f, 0.44f, smoothstepf(-0.05f, 0.17f, cold));
+        float kept = upright - 0.07f * chutes.value + 0.03f * fray.value;
         float held = smoothstepf(least - 0.02f, least + 0.05f, kept);
         other = snow(point, scale);
-        g = ground_blend(g, &other, smoothstepf(-0.015f, 0.02f, cold) * held);
+        g = ground_blend(g, &other, smoothstepf(-0.012f, 0.016f, cold) * held);
     }
     g = pattern_shore(point, vec3_scale(m->color, 1.25f), m->pattern_depth, g);
     shade->color = g.color;

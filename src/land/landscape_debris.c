@@ -1,0 +1,162 @@
+// Debris flows and rockfall along the ways of the water: they cut couloirs into steep rock and
+// build cones of talus and fans where the ground grows gentle.
+//
+// Steep catchments are scoured at E = K A^1/4 (S - S0), S0 the slope at which debris comes to rest:
+// unlike that of streams, the exponent of the area is small (Stock and Dietrich 2003, 2006). Debris
+// rests at the angle of repose below the chutes of a face, and on fans the gentler the larger the
+// catchment (Melton 1965). Heights are found implicitly from the bases up, as in
+// landscape_streams.c; then debris is handed down, and what lies loose on steeper ground goes with
+// it.
+#include "base/memory.h"
+#include "land/landscape_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double TALUS_AREA = 4.0e4; // m^2: debris of less rests at its angle of repose
+static const double FLATTEST = 0.08;    // of fans
+
+// The slope at which debris of a catchment comes to rest.
+static double resting_slope(double area, double repose)
+{
+    double share = area > TALUS_AREA ? sqrt(sqrt(TALUS_AREA / area)) : 1.0;
+    double least = repose < FLATTEST ? repose : FLATTEST;
+    return repose * share > least ? repose * share : least;
+}
+
+static double way_length(const Landscape *land, int32_t i, int32_t to)
+{
+    int32_t step = to > i ? to - i : i - to;
+    bool straight = step == 1 || step == land->side;
+    return land->cell * (straight ? 1.0 : 1.4142135623730951);
+}
+
+// m by which debris scours the rock of sample i, whose receiver lies at `below` after the step.
+static double scour(const Landscape *land, const LandscapeRates *rates, int32_t i, double length,
+                    double below, double time)
+{
+    double area = land->route->area[i], top = land->rock[i];
+    double rest = below + length * resting_slope(area, rates->repose);
+    if (top + land->loose[i] <= rest || top <= below) {
+        return 0.0;
+    }
+    double gathers = area / (area + rates->least_debris);
+    double hardness = landscape_hardness(land, landscape_bed(land, i, top));
+    double speed = rates->debris * gathers * sqrt(sqrt(area)) * landscape_erodibility(hardness) *
+                   (double)land->weakness[i];
+    double covered = 1.0 / (1.0 + 0.5 * land->loose[i]);
+    double k = speed * covered * time / length;
+    double height = (top + k * rest) / (1.0 + k);
+    height = height > below ? height : below;
+    return top > height ? top - height : 0.0;
+}
+
+// Fills `dug`: m of rock that each sample loses.
+static bool find_scour(const Landscape *land, const LandscapeRates *rates, double time, double *dug,
+                       Error *e)
+{
+    const Routing *route = land->route;
+    double *top = memory_alloc(landscape_count(land), sizeof *top, e);
+    for (int64_t k = 0; top && k < route->count; k++) {
+        int32_t i = route->order[k], to = route->receiver[i];
+        dug[i] = to == i ? 0.0 : scour(land, rates, i, way_length(land, i, to), top[to], time);
+        top[i] = land->rock[i] + land->loose[i] - dug[i];
+    }
+    bool done = top;
+    free(top);
+    return done;
+}
+
+// Hands debris down. load: m^3 that reaches each sample; settled: m that come to rest there.
+static void hand_down(Landscape *land, const LandscapeRates *rates, const double *dug, double *load,
+                      double *settled)
+{
+    const double settles = 0.5; // share of the room that one step fills
+    const Routing *route = land->route;
+    double own = land->cell * land->cell;
+    for (int64_t k = route->count - 1; k >= 0; k--) {
+        int32_t i = route->order[k], to = route->receiver[i];
+        if (to == i) {
+            land->outflow += load[i];
+            continue;
+        }
+        land->rock[i] -= dug[i];
+        land->outflow += (1.0 - rates->rubble) * dug[i] * own;
+        double arrived = load[i] / own + rates->rubble * dug[i];
+        double fall = land->rock[i] + land->loose[i] - (land->rock[to] + land->loose[to]);
+        double rest = way_length(land, i, to) * resting_slope(route->area[i], rates->repose);
+        double over = fall - rest;
+        if (over > 0.0) {
+            double gone = settles * over < land->loose[i] ? settles * over : land->loose[i];
+            land->loose[i] -= gone;
+            arrived += gone;
+        } else {
+            double kept = -settles * over < arrived ? -settles * over : arrived;
+            settled[i] = kept;
+            arrived -= kept;
+        }
+        load[to] += arrived * own;
+    }
+}
+
+// Flows leave their way where they come to rest: what has settled spreads downhill beside it, which
+// makes cones and fans of it. settled, next: m, before and after a turn.
+static void spread_row(const Landscape *land, const double *settled, double *next, int row)
+{
+    for (int column = 0; column < land->side; column++) {
+        int64_t i = (int64_t)row * land->side + column;
+        double gained = 0.0, here = land->rock[i] + land->loose[i] + settled[i];
+        for (int k = 0; k < 9; k++) {
+            int c = column + k % 3 - 1, r = row + k / 3 - 1;
+            if (k == 4 || c < 0 || r < 0 || c >= land->side || r >= land->side) {
+                continue;
+            }
+            int64_t n = (int64_t)r * land->side + c;
+            double there = land->rock[n] + land->loose[n] + settled[n];
+            double drop = here - there, from = drop > 0.0 ? settled[i] : settled[n];
+            double size = drop > 0.0 ? drop : -drop;
+            double moves = 0.11 * (size < from ? size : from);
+            bool open = !land->base[i] && !land->base[n];
+            gained += !open ? 0.0 : drop > 0.0 ? -moves : moves;
+        }
+        next[i] = settled[i] + gained;
+    }
+}
+
+static double *spread(const Landscape *land, double *settled, double *next, int threads)
+{
+    enum { TIMES = 8 };
+    for (int k = 0; k < TIMES; k++) {
+#pragma omp parallel for schedule(static) num_threads(threads)
+        for (int row = 0; row < land->side; row++) {
+            spread_row(land, settled, next, row);
+        }
+        double *swap = settled;
+        settled = next;
+        next = swap;
+    }
+    return settled; // the one that was given, since TIMES is even
+}
+
+bool landscape_debris(Landscape *land, const LandscapeRates *rates, double time, const Run *run,
+                      Error *e)
+{
+    if (rates->debris <= 0.0) {
+        return true;
+    }
+    double *dug = memory_alloc_zero(landscape_count(land), sizeof *dug, e);
+    double *load = dug ? memory_alloc_zero(landscape_count(land), sizeof *load, e) : NULL;
+    double *settled = load ? memory_alloc_zero(landscape_count(land), sizeof *load, e) : NULL;
+    bool done = settled && find_scour(land, rates, time, dug, e);
+    if (done) {
+        hand_down(land, rates, dug, load, settled);
+        spread(land, settled, load, run->threads);
+        for (int64_t i = 0; i < landscape_count(land); i++) {
+            land->loose[i] += settled[i];
+        }
+    }
+    free(settled);
+    free(dug);
+    free(load);
+    return done;
+}
