@@ -252,7 +252,7 @@ still pine-rock pine-rock
 still leaves-sun leaves-sun
 still willow-lake willow-lake
 still cherry-blossom cherry-blossom
-still beech-wood beech-wood --samples 20
+still beech-wood beech-wood
 still birch-grove birch-grove
 still spruce-snow spruce-snow
 still forest-fog forest-fog

@@ -5,14 +5,12 @@
 #include "base/noise.h"
 #include "base/random.h"
 #include "mesh/grass.h"
-#include "objects/common/foliage.h"
 #include "objects/ground/grove.h"
-#include "objects/tree/tree.h"
+#include "objects/ground/litter.h"
 
 #include <stdlib.h>
 
-enum { STREAM_TUFT_PLACES = 1 };   // of a variant of grass
-enum { STREAM_LEAF_PLACES = 100 }; // of a variant of leaves; LEAF_PLACES + i: leaf i
+enum { STREAM_TUFT_PLACES = 1 }; // of a variant of grass
 // Of a tuft.
 enum {
     STREAM_TUFT_RADIUS = 1,
@@ -22,16 +20,6 @@ enum {
     STREAM_TUFT_VARIATION = 5,
     STREAM_TUFT_TURN = 6
 };
-// Of a leaf on the ground.
-enum {
-    STREAM_LEAF_RADIUS = 1,
-    STREAM_LEAF_AZIMUTH = 2,
-    STREAM_LEAF_HEIGHT = 3,
-    STREAM_LEAF_TILT = 4,
-    STREAM_LEAF_FACE = 5,
-    STREAM_LEAF_TURN = 6
-};
-
 GroundParams ground_params_default(void)
 {
     return (GroundParams){.radius = 2000.0f,
@@ -334,64 +322,6 @@ static bool add_grass_variant(const GroundParams *params, int variant, const Pla
     return placing_add(placing, part, GROUND_GRASS, e);
 }
 
-// A fallen leaf on the tips of the short grass: either side up, slightly tilted. False where it
-// would lie in a pond.
-static bool lying_leaf(const GroundParams *params, uint64_t seed, uint64_t key, Transform *leaf)
-{
-    float r = params->fallen_radius * sqrtf(random_unit(random_key(key, STREAM_LEAF_RADIUS))), sine,
-          cosine;
-    exact_sincos(random_range(random_key(key, STREAM_LEAF_AZIMUTH), 0.0f, 2.0f * PI_F), &sine,
-                 &cosine);
-    Vec3 p = ground_point(params, seed, r * sine, r * cosine);
-    if (ground_in_pond(params, seed, p.x, p.z)) {
-        return false;
-    }
-    p.y += random_range(random_key(key, STREAM_LEAF_HEIGHT), 0.005f, 0.06f);
-    Vec3 z = vec3_normalize(
-        vec3_madd(vec3(0, 1, 0), 0.35f, random_direction(random_key(key, STREAM_LEAF_TILT))));
-    if (random_unit(random_key(key, STREAM_LEAF_FACE)) < 0.4f) {
-        z = vec3_neg(z);
-    }
-    Vec3 y = vec3_normalize(vec3_cross(z, random_direction(random_key(key, STREAM_LEAF_TURN))));
-    *leaf = transform_from_axes(vec3_cross(y, z), y, z, p);
-    return true;
-}
-
-static bool add_fallen_leaves(const GroundParams *params, const Placing *placing, Error *e)
-{
-    LeavesParams leaves = tree_params_default().leaves;
-    uint64_t seed = placing->recipe->seed;
-    for (int v = 0; v < leaves.variants; v++) {
-        int64_t each = grove_share(params->fallen_leaves, leaves.variants, v);
-        if (each == 0) {
-            break;
-        }
-        uint64_t key = random_key(random_key(seed, STREAM_GROUND_LEAVES), (uint64_t)v);
-        leaves.curl = 60.0f; // dry leaves roll up
-        Part part = {.instance = memory_alloc(each, sizeof *part.instance, e)};
-        foliage_leaf_meshes(&leaves, leaves.spacing, v, key, &part, e);
-        bool done = part.mesh && part.instance;
-        for (int64_t i = 0; done && i < each; i++) {
-            done = run_goes_on(placing->recipe->run, i, e);
-            uint64_t leaf = random_key(key, STREAM_LEAF_PLACES + (uint64_t)i);
-            part.instance_count +=
-                lying_leaf(params, seed, leaf, &part.instance[part.instance_count]) ? 1 : 0;
-        }
-        if (!done || part.instance_count == 0) { // as for grass
-            part_free_meshes(&part);
-            free(part.instance);
-            if (!done) {
-                return false;
-            }
-            continue;
-        }
-        if (!placing_add(placing, part, GROUND_FALLEN, e)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 typedef struct DrawnLand {
     const GroundParams *params;
     uint64_t seed;
@@ -437,6 +367,6 @@ bool ground_geometry(const void *given, const Grown *grown, const Placing *placi
     for (int v = 0; done && params->grass_tufts > 0 && v < params->grass_variants; v++) {
         done = add_grass_variant(params, v, placing, e);
     }
-    return done && (params->fallen_leaves <= 0 || add_fallen_leaves(params, placing, e)) &&
+    return done && litter_add(params, placing, e) &&
            (params->trees.count == 0 || grove_add(params, placing, e));
 }

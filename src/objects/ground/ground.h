@@ -30,8 +30,12 @@ typedef struct GroundParams {
     float grass_height;    // m, of the tallest blades
     float grass_clumping;  // 0 = even .. 1 = in patches
     int grass_variants;    // different tuft meshes
-    int64_t fallen_leaves; // leaves lying about the origin; 0 = none
+    int64_t fallen_leaves; // leaves lying about fallen_center; 0 = none
     float fallen_radius;   // m
+    Vec3 fallen_center;
+    float fallen_gathering; // 0 = evenly over the disc .. 1 = as densely as 1 / distance
+    TreeShare *fallen_of;   // whose leaves they are; none = an oak's
+    int fallen_of_count;
     GroveParams trees;
     float snow; // m, mean depth of the snow on the land; 0 = none
     Pond *ponds;
@@ -60,7 +64,8 @@ enum {
     STREAM_GROUND_TREES = 6,
     STREAM_GROUND_WOODS = 7,
     STREAM_GROUND_DRIFTS = 8,
-    STREAM_GROUND_PONDS = 9
+    STREAM_GROUND_PONDS = 9,
+    STREAM_GROUND_LITTER = 10
 };
 
 GroundParams ground_params_default(void); // 2 km of meadow, 60,000 tufts

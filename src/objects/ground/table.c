@@ -65,9 +65,21 @@ static const Key GROUND_KEYS[] = {
     {KEY_OF(GroundParams, grass_variants, "grass_variants", KEY_INT), .low = 1, .high = 1000,
      .doc = "Number of different tufts."},
     {KEY_OF(GroundParams, fallen_leaves, "fallen_leaves", KEY_INT64), .high = 1e9,
-     .doc = "Number of fallen leaves about the origin; 0 = none."},
+     .doc = "Number of fallen leaves about fallen_center; 0 = none."},
     {KEY_OF(GroundParams, fallen_radius, "fallen_radius", KEY_FLOAT), .flags = KEY_ABOVE,
-     .high = 1e5, .unit = "m", .doc = "Radius of the fallen leaves about the origin."},
+     .high = 1e5, .unit = "m", .doc = "Radius of the fallen leaves about fallen_center."},
+    {KEY_OF(GroundParams, fallen_center, "fallen_center", KEY_VECTOR), .count = 3, .unit = "m",
+     .doc = "Centre of the fallen leaves."},
+    {KEY_OF(GroundParams, fallen_gathering, "fallen_gathering", KEY_FLOAT), .high = 1,
+     .doc = "Distribution: 0 = uniform over the disc, 1 = as densely as 1 / distance from the "
+            "centre, to cover the ground near the camera."},
+    {KEY_OF(GroundParams, fallen_of, "fallen_of", KEY_LIST),
+     .count_offset = offsetof(GroundParams, fallen_of_count), .count = 100,
+     .table = &tree_share_table,
+     .doc =
+         "Trees whose leaves these are, by their shares: of a conifer pieces of twigs. Only the "
+         "form of their leaves is used; the material is the ground's `leaf_material`. Empty = an "
+         "oak's."},
     {KEY_OF(GroundParams, snow, "snow", KEY_FLOAT), .high = 100, .unit = "m",
      .doc =
          "Mean depth of the snow on the land: in drifts, and bare in places where it is shallow; "

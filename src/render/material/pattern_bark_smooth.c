@@ -6,25 +6,47 @@
 #include <math.h>
 #include <stddef.h>
 
+// Crusts of lichen: patches with ragged borders, pale ones with dark fruit bodies and sooty ones,
+// up to a few hands wide. seen: share of what is as fine as these dots.
+static Vec3 add_crusts(Vec3 color, const StemPlace *place, float scale, float seen)
+{
+    float pale = noise_fractal(stem_lookup(place, 0.17f * scale, 0.13f * scale), 4, 52);
+    float sooty = noise_fractal(stem_lookup(place, 0.26f * scale, 0.16f * scale), 4, 56);
+    float crust = smoothstepf(0.13f, 0.18f, pale), rim = smoothstepf(0.24f, 0.15f, pale);
+    Vec3 grey = vec3_scale(vec3(1.26f, 1.33f, 1.20f), 1.0f + 0.07f * rim);
+    float dot = noise_solid(stem_lookup(place, 0.007f * scale, 0.007f * scale), 57, NULL);
+    grey = vec3_scale(grey, 1.0f - 0.35f * seen * smoothstepf(0.25f, 0.5f, dot));
+    color = vec3_lerp(color, vec3_mul(color, grey), 0.8f * crust);
+    Vec3 dark = vec3_mul(color, vec3(0.62f, 0.66f, 0.60f));
+    return vec3_lerp(color, dark, 0.75f * smoothstepf(0.17f, 0.27f, sooty));
+}
+
+// Algae: a breath of green, more toward the foot, and dark streaks where rain runs down.
+static Vec3 add_runs(Vec3 color, const StemPlace *place, float scale)
+{
+    float run = noise_fractal(stem_lookup(place, 0.10f * scale, 1.9f * scale), 3, 53);
+    float foot = expf(-fmaxf(place->height, 0.0f) / (1.2f * scale));
+    float green = smoothstepf(-0.15f, 0.45f, run + 0.3f * foot);
+    float wet = smoothstepf(0.22f, 0.42f, run);
+    color = vec3_mul(color, vec3(1.0f - 0.27f * green, 1.0f - 0.13f * green, 1.0f - 0.40f * green));
+    return vec3_scale(color, 1.0f - 0.28f * wet);
+}
+
 BarkLook bark_smooth(const Material *m, const StemPlace *place, float scale, float footprint)
 {
     BarkLook look = {0};
     Vec3 g, h;
     float seen = pattern_detail(0.012f * scale, footprint);
-    float tone = noise_fractal(stem_lookup(place, 0.5f * scale, 0.35f * scale), 2, 51);
-    // Lichens: pale round blots; algae: a breath of green where rain runs down.
-    float blot = smoothstepf(
-        0.12f, 0.32f, noise_fractal(stem_lookup(place, 0.13f * scale, 0.10f * scale), 2, 52));
-    float run = smoothstepf(0.0f, 0.6f,
-                            noise_solid(stem_lookup(place, 0.12f * scale, 1.6f * scale), 53, NULL));
-    look.color = vec3_scale(m->color, 1.0f + 0.22f * tone);
-    look.color = vec3_lerp(look.color, vec3_scale(m->color, 1.28f), 0.55f * blot);
-    look.color =
-        vec3_mul(look.color, vec3(1.0f - 0.16f * run, 1.0f - 0.07f * run, 1.0f - 0.24f * run));
+    float tone = noise_fractal(stem_lookup(place, 0.5f * scale, 0.35f * scale), 4, 51);
+    look.color = vec3_scale(m->color, 1.0f + 0.34f * tone);
+    look.color = add_crusts(look.color, place, scale, seen);
+    look.color = add_runs(look.color, place, scale);
+    float skin = noise_solid(stem_lookup(place, 0.028f * scale, 0.0035f * scale), 58, NULL);
+    look.color = vec3_scale(look.color, 1.0f + 0.09f * seen * skin);
     float wrinkle = noise_solid(stem_lookup(place, 0.06f * scale, 0.007f * scale), 54, &g);
     stem_add_relief(&look, place, 0.10f * seen * wrinkle, 0.10f * seen, 0.06f * scale,
                     0.007f * scale, g);
-    look.color = vec3_scale(look.color, 1.0f + 0.06f * seen * wrinkle);
+    look.color = vec3_scale(look.color, 1.0f + 0.12f * seen * wrinkle);
     // Scars: dark, wider than high, few.
     const float around = 0.11f * scale, along = 0.035f * scale;
     float n = noise_solid(stem_lookup(place, around, along), 55, &h);
