@@ -22,7 +22,8 @@ static void mean_is_the_cover(void **state)
 {
     (void)state;
     enum { PLACES = 20000 };
-    const float cover[] = {0.02f, 0.1f, 0.3f, 0.6f, 0.9f}, width[] = {0.0f, 0.1f, 0.6f, 4.0f, 40.0f};
+    const float cover[] = {0.02f, 0.1f, 0.3f, 0.6f, 0.9f},
+                width[] = {0.0f, 0.1f, 0.6f, 4.0f, 40.0f};
     for (size_t c = 0; c < sizeof cover / sizeof cover[0]; c++) {
         for (size_t w = 0; w < sizeof width / sizeof width[0]; w++) {
             double sum = 0.0;
