@@ -11,6 +11,7 @@ void waves_shore_free(WavesShore *shore)
         free(shore->share);
         free(shore->shift);
         free(shore->breaking);
+        free(shore->drift);
         free(shore);
     }
 }
@@ -203,7 +204,7 @@ void waves_at(const Waves *waves, float x, float z, float width, WavePoint *poin
 {
     float sum[WAVE_CHANNELS] = {0};
     const WavesShore *shore = waves->shore;
-    point->breaking = 0.0f;
+    point->breaking = point->drift = 0.0f;
     point->depth = INFINITY;
     if (shore) {
         GridPlace place = grid_place(shore, x, z);
@@ -211,6 +212,7 @@ void waves_at(const Waves *waves, float x, float z, float width, WavePoint *poin
             add_shifted(waves, i, &place, x, z, width, sum);
         }
         point->breaking = grid_sum(&place, place.weight, shore->breaking, 1, 0);
+        point->drift = grid_sum(&place, place.weight, shore->drift, 1, 0);
         point->depth = grid_sum(&place, place.weight, shore->depth, 1, 0);
     } else {
         for (int i = 0; i < WAVES_TILES; i++) {
@@ -229,11 +231,22 @@ void waves_at(const Waves *waves, float x, float z, float width, WavePoint *poin
     point->roughness2 = hidden_variance(waves, fmaxf(2.0f * width, waves->shortest));
 }
 
+// Foam between the breakers: dense where the water runs up the shore and back, then what drifts
+// off.
+static float old_surf(const Waves *waves, const WavePoint *point)
+{
+    const float wash = 1.5f; // m: depth in which water is white all the time
+    float lasts = fminf(3.0f * waves->spread / waves->foam, 1.0f);
+    float near = 0.14f + 0.46f * smoothstepf(wash, 0.0f, point->depth);
+    return lasts * fmaxf(near * point->breaking, 0.16f * point->drift * point->drift);
+}
+
 float waves_foam(const Waves *waves, const WavePoint *point)
 {
     // In surf waves of any steepness break, and the foam of a breaker lasts to the next one.
     float from = waves->foam * (1.0f - 0.85f * point->breaking), spread = waves->spread;
     float crest = smoothstepf(from, from + 1.2f * spread, point->crowding);
     float trail = smoothstepf(from, from + 2.2f * spread, point->trail);
-    return fmaxf(crest, 0.75f * trail);
+    float old = point->drift > 0.0f ? old_surf(waves, point) : 0.0f;
+    return fmaxf(crest, 1.0f - (1.0f - 0.75f * trail) * (1.0f - old));
 }

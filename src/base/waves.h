@@ -51,6 +51,7 @@ typedef struct WavesShore {
     float *share;    // of the height that each tile has in deep water: WAVES_TILES a sample
     float *shift;    // m along the way of the waves, by which they lag: WAVES_TILES a sample
     float *breaking; // 0..1: share of the waves that break
+    float *drift;    // 0..1: the same, spread as far as old foam drifts from the surf
 } WavesShore;
 
 typedef struct Waves {
@@ -81,6 +82,7 @@ typedef struct WavePoint {
     float crowding;    // of the waves, and of the last seconds
     float trail;
     float breaking;   // 0..1: of the surf
+    float drift;      // 0..1: how near the surf is
     float depth;      // m of still water; INFINITY without a shore
     float roughness2; // variance of the slopes that are left out, summed over both axes
 } WavePoint;

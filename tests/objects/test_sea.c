@@ -271,6 +271,53 @@ static void surf_is_limited_by_depth(void **state)
     height_field_free(land);
 }
 
+// Mean foam about a place, over 600 m of shore.
+static double foam_near(const Waves *waves, float x)
+{
+    double sum = 0.0;
+    int count = 0;
+    for (float z = -300.0f; z < 300.0f; z += 0.7f, count++) {
+        WavePoint point;
+        waves_at(waves, x + 4.0f * remainderf(0.618f * z, 1.0f), z, 0.0f, &point);
+        float foam = waves_foam(waves, &point);
+        assert_true(foam >= 0.0f && foam <= 1.0f);
+        sum += (double)foam;
+    }
+    return sum / count;
+}
+
+// Surf is whitest where it runs out, and foam that drifts from it thins out until the whitecaps of
+// the open sea are left; without foam there is none in the surf, too.
+static void surf_is_white(void **state)
+{
+    (void)state;
+    SeaParams sea = sea_params_default();
+    sea.wind = 10.0f;
+    sea.wind_azimuth = 255.0f;
+    Error e = {0};
+    Run run = run_default();
+    HeightField *land = beach();
+    const float depth[] = {0.2f, 1.0f, 2.5f, 6.0f, 30.0f};
+    for (int i = 0; i < 2; i++) {
+        sea.foam = i == 0 ? 1.0f : 0.0f;
+        Waves *waves = waves_of(&sea, 7, 2);
+        waves->shore = sea_shore(&sea, land, waves, &run, &e);
+        assert_non_null(waves->shore);
+        double last = 1.0;
+        for (int k = 0; k < 5; k++) {
+            double foam = foam_near(waves, -25.0f * depth[k]);
+            printf("    foam %.0f, depth %4.1f m: %.3f\n", (double)sea.foam, (double)depth[k],
+                   foam);
+            assert_true(i == 0 ? foam < last : foam < 1e-3);
+            assert_true(i == 1 || depth[k] > 1.0f || foam > 0.4);
+            last = foam;
+        }
+        assert_true(last < 0.04);
+        waves_free(waves);
+    }
+    height_field_free(land);
+}
+
 // Snell's law: waves that come in at 35 degrees turn toward the shore as they slow down. The phase
 // is that of the place where the tile is looked up.
 static void waves_turn_toward_the_shore(void **state)
@@ -319,6 +366,7 @@ int main(void)
         cmocka_unit_test(bits_do_not_depend_on_threads),
         cmocka_unit_test(foam_covers_what_whitecaps_do),
         cmocka_unit_test(surf_is_limited_by_depth),
+        cmocka_unit_test(surf_is_white),
         cmocka_unit_test(waves_turn_toward_the_shore),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,12 +11,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_SAMPLES = 384, SWEEPS = 3, SMOOTHINGS = 2 };
+enum { MOST_SAMPLES = 384, SWEEPS = 3, SMOOTHINGS = 2, MOST_DRIFT = 400 };
 
 // The significant height that surf of this depth keeps: Thornton and Guza 1983 (root mean square
 // height of 0.42 of the depth, Rayleigh-distributed).
 #define SURF_RATIO 0.6f
 #define LEAST_DEPTH 0.05f // m: where the travel time is still told
+#define DRIFT 14.0f       // m, standard deviation: how far foam of the surf drifts
 #define RUN_UP 0.12f      // share of the open sea's height by which surf washes over the shore line
 
 typedef struct Bed {
@@ -53,7 +54,8 @@ static WavesShore *shore_new(const HeightField *land, Error *e)
     shore->share = shore->depth ? memory_alloc(count, WAVES_TILES * sizeof(float), e) : NULL;
     shore->shift = shore->share ? memory_alloc_zero(count, WAVES_TILES * sizeof(float), e) : NULL;
     shore->breaking = shore->shift ? memory_alloc(count, sizeof(float), e) : NULL;
-    if (!shore->breaking) {
+    shore->drift = shore->breaking ? memory_alloc(count, sizeof(float), e) : NULL;
+    if (!shore->drift) {
         waves_shore_free(shore);
         return NULL;
     }
@@ -218,6 +220,26 @@ static void limit_heights(const Bed *bed, const Waves *waves)
     }
 }
 
+// How near the surf is: its share smoothed over the way that foam drifts before it is gone.
+static bool spread_foam(WavesShore *shore, Error *e)
+{
+    float *scratch = memory_alloc(count_of(shore), sizeof *scratch, e);
+    if (!scratch) {
+        return false;
+    }
+    for (int64_t i = 0; i < count_of(shore); i++) {
+        shore->drift[i] = shore->breaking[i];
+    }
+    // Each smoothing adds half a sample squared to the variance.
+    float wide = DRIFT / shore->cell;
+    int times = (int)(2.0f * wide * wide);
+    for (int i = 0; i < (times < MOST_DRIFT ? times : MOST_DRIFT); i++) {
+        smooth(shore, shore->drift, scratch);
+    }
+    free(scratch);
+    return true;
+}
+
 WavesShore *sea_shore(const SeaParams *params, const HeightField *land, const Waves *waves,
                       const Run *run, Error *e)
 {
@@ -234,7 +256,7 @@ WavesShore *sea_shore(const SeaParams *params, const HeightField *land, const Wa
     sound(&bed, land);
     limit_heights(&bed, waves);
     bed.time = memory_alloc(count_of(bed.shore), sizeof *bed.time, e);
-    bool done = bed.time;
+    bool done = bed.time && spread_foam(bed.shore, e);
     for (int i = 0; done && i < WAVES_TILES; i++) {
         double longest = 6.28318530717958647692 / (double)waves->tile[i].longest;
         double omega =

@@ -36,14 +36,14 @@ static const StrataBed MESAS[] = {{0.06f, 0.80f, 0.0f, {0.42f, 0.19f, 0.11f}, 3.
                                   {1.0f, 0.92f, 0.0f, {0.45f, 0.24f, 0.15f}, 6.0f}};
 
 // Sandstones and mudstones that dip along the shore, so that hard beds stand out as headlands.
-static const StrataBed COAST[] = {{0.20f, 0.74f, 0.0f, {0.215f, 0.180f, 0.140f}, 1.6f},
-                                  {0.08f, 0.50f, 0.0f, {0.130f, 0.118f, 0.105f}, 0.5f},
-                                  {0.15f, 0.68f, 0.0f, {0.240f, 0.195f, 0.145f}, 1.2f},
-                                  {0.05f, 0.44f, 0.0f, {0.105f, 0.100f, 0.095f}, 0.4f},
-                                  {0.27f, 0.80f, 0.0f, {0.195f, 0.165f, 0.135f}, 2.2f},
-                                  {0.10f, 0.55f, 0.0f, {0.150f, 0.135f, 0.118f}, 0.6f},
-                                  {0.11f, 0.70f, 0.0f, {0.235f, 0.185f, 0.130f}, 1.0f},
-                                  {0.04f, 0.46f, 0.0f, {0.110f, 0.104f, 0.098f}, 0.4f}};
+static const StrataBed COAST[] = {{0.20f, 0.74f, 0.0f, {0.225f, 0.170f, 0.118f}, 1.6f},
+                                  {0.08f, 0.50f, 0.0f, {0.088f, 0.080f, 0.074f}, 0.5f},
+                                  {0.15f, 0.68f, 0.0f, {0.275f, 0.222f, 0.160f}, 1.2f},
+                                  {0.05f, 0.44f, 0.0f, {0.072f, 0.067f, 0.064f}, 0.4f},
+                                  {0.27f, 0.80f, 0.0f, {0.190f, 0.136f, 0.100f}, 2.2f},
+                                  {0.10f, 0.55f, 0.0f, {0.108f, 0.097f, 0.088f}, 0.6f},
+                                  {0.11f, 0.70f, 0.0f, {0.262f, 0.200f, 0.138f}, 1.0f},
+                                  {0.04f, 0.46f, 0.0f, {0.076f, 0.071f, 0.068f}, 0.4f}};
 
 // As many as the dip needs, from above the highest land on one side to below the sea on the other.
 static int coast_beds(const TerrainParams *params, StrataBed *beds)

@@ -2,8 +2,13 @@
 // overgrown where it has long lain, silt in dry threads, wet stones at the water's edge, meadows on
 // terraces, scrub and rock on slopes. site.x is the age of the ground (HeightField.age), site.y how
 // damp it is.
+#include "render/material/foam.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_noise.h"
+#include "render/material/pattern_shore.h"
+
+#include <math.h>
+#include <stddef.h>
 
 typedef struct Cover {
     Vec3 color;
@@ -26,20 +31,64 @@ static float streaks(const SurfacePoint *point, float wavelength, uint32_t seed)
     return pattern_octaves(&drawn, wavelength, 5, 0.66f, 1.0f, seed).value;
 }
 
-// Stones of many sizes in sheets and ribbons, coarse and fine in turn; lichen and dust darken old
-// ones.
+// Small channels that floods have left on bars, of three sizes; they wander down the valley.
+typedef struct Rills {
+    float floor;  // 0..1: in a channel's bed, where the last water laid silt
+    float margin; // 0..1: beside it, where stones stayed
+    Vec3 slope;
+} Rills;
+
+static Rills rills(const SurfacePoint *point)
+{
+    static const float width[] = {46.0f, 17.0f, 6.5f}; // m: about twice the distance of channels
+    const float skew = 0.12f, along = 0.17f, deep = 0.02f, half = 0.3f;
+    Rills r = {0};
+    Vec3 p = point->object_position;
+    for (uint32_t i = 0; i < sizeof width / sizeof width[0]; i++) {
+        float seen = pattern_detail(0.3f * width[i], point->footprint);
+        if (seen <= 0.0f) {
+            break;
+        }
+        Vec3 at = vec3_scale(p, 1.0f / width[i]), slope;
+        at.x += 0.7f * noise_solid(vec3_scale(at, 0.45f), 463 + i, NULL);
+        at = vec3(at.x + skew * at.z, 0.5f, along * at.z);
+        float n = noise_solid(at, 461 + i, &slope), off = fabsf(n) / half;
+        if (off >= 2.0f) {
+            continue;
+        }
+        float inside = off < 1.0f ? (1.0f - off * off) * (1.0f - off * off) : 0.0f;
+        float fall = off < 1.0f ? 4.0f * off * (1.0f - off * off) / half : 0.0f;
+        r.floor = fmaxf(r.floor, seen * inside);
+        r.margin = fmaxf(r.margin, seen * fmaxf(1.0f - 2.0f * fabsf(off - 1.2f), 0.0f));
+        float steep = seen * deep * (n < 0.0f ? -fall : fall);
+        r.slope.x += steep * slope.x;
+        r.slope.z += steep * (skew * slope.x + along * slope.z);
+    }
+    return r;
+}
+
+// Stones and sand sorted by floods: coarse sheets at the heads of bars and beside channels, sand in
+// their lee, silt in the channels; lichen and dust darken what is old.
 static Cover gravel(const SurfacePoint *point, Vec3 color, float age, float broad)
 {
     PatternOctaves sheets = pattern_octaves(point, 22.0f, 5, 0.65f, 1.0f, 401);
-    PatternOctaves stones = pattern_octaves(point, 1.2f, 7, 0.8f, 1.0f, 403);
+    PatternOctaves grain = pattern_octaves(point, 1.6f, 7, 0.8f, 1.0f, 403);
     float ribbons = streaks(point, 26.0f, 405);
+    Rills r = rills(point);
+    float coarse = 0.5f + 0.55f * ribbons + 0.4f * sheets.value + 0.5f * r.margin - 0.7f * r.floor;
+    coarse = clampf(coarse + 0.15f * grain.value, 0.0f, 1.0f);
+    Vec3 sand = vec3_mul(color, vec3(1.22f, 1.16f, 1.02f));
+    Vec3 stones = vec3_mul(color, vec3(0.88f, 0.90f, 0.91f));
+    Vec3 silt = vec3_mul(color, vec3(0.66f, 0.64f, 0.57f));
+    Vec3 tint = vec3_lerp(vec3_lerp(sand, stones, coarse), silt, 0.75f * r.floor);
     float dark = smoothstepf(0.0f, 0.5f, age + 0.12f * broad + 0.16f * ribbons);
-    Vec3 fresh = vec3_scale(color, 1.22f), old = vec3_mul(color, vec3(0.52f, 0.54f, 0.50f));
-    Cover c = {.color = vec3_lerp(fresh, old, dark)};
-    c.color = vec3_scale(c.color, 1.0f + 0.15f * clampf(sheets.value, -1.3f, 1.3f) +
-                                      0.22f * clampf(ribbons, -1.3f, 1.3f) +
-                                      0.18f * clampf(stones.value, -1.3f, 1.3f));
-    c.slope = vec3_madd(vec3_scale(stones.slope, 0.035f), 0.22f, sheets.slope);
+    tint = vec3_lerp(tint, vec3_mul(tint, vec3(0.54f, 0.55f, 0.50f)), dark);
+    Ground cobbles = pattern_stones(point, tint);
+    Cover c = {.color = vec3_lerp(tint, cobbles.color, coarse)};
+    c.color = vec3_scale(c.color, 1.0f + 0.10f * clampf(sheets.value, -1.3f, 1.3f) +
+                                      0.26f * clampf(grain.value, -1.3f, 1.3f));
+    c.slope = vec3_madd(vec3_scale(grain.slope, 0.05f), 0.3f, sheets.slope);
+    c.slope = vec3_add(vec3_madd(c.slope, 0.6f * coarse, cobbles.slope), r.slope);
     return c;
 }
 
@@ -91,28 +140,39 @@ void pattern_braided(const Material *m, const SurfacePoint *point, PatternShade 
         blend(ground, meadow, terrace * smoothstepf(0.86f, 0.94f, upright + 0.03f * patch.value));
     ground =
         blend(ground, hillside(m, point, upright, broad.value), smoothstepf(0.84f, 0.96f, age));
-    // Wet ground is dark, the darker the nearer the water.
-    float moist = damp + 0.10f * patch.value;
-    float wet = 0.3f * smoothstepf(0.45f, 0.85f, moist) + 0.7f * smoothstepf(0.86f, 1.0f, moist);
+    // Wet ground is dark: a ragged strip beside the water, and patches where it seeps.
+    float moist = damp + 0.07f * patch.value;
+    float wet = 0.2f * smoothstepf(0.6f, 0.9f, moist) + 0.8f * smoothstepf(0.94f, 1.0f, moist);
     wet *= 1.0f - terrace;
-    shade->color = vec3_scale(ground.color, 1.0f - 0.36f * wet);
+    shade->color = vec3_scale(ground.color, 1.0f - 0.48f * wet);
     Vec3 slope = vec3_scale(ground.slope, m->pattern_depth * (1.0f - 0.5f * wet));
     shade->normal = pattern_tilt(shade->normal, slope);
 }
 
 // Rock flour scatters what light comes in, so depth alone tells the colour: the bed (color2) shines
-// through where water is shallow. site.x = depth / (1 m + depth), site.y how rough the flow is.
+// through where water is shallow, and its stones rise from the thinnest sheets. site.x = depth /
+// (1 m + depth), site.y how rough the flow is: white where it is swift.
 void pattern_glacial(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    const float clear = 0.15f; // m: depth in which the bed fades to 1 / e
+    const float clear = 0.09f; // m: depth in which the bed fades to 1 / e
     float depth = point->site.x / fmaxf(1.0f - point->site.x, 0.02f), rough = point->site.y;
     PatternOctaves drift = pattern_octaves(point, 30.0f, 3, 0.6f, 1.0f, 443);
-    float seen = expf(-depth / clear);
+    PatternOctaves bed = pattern_octaves(point, 7.0f, 7, 0.62f, 1.0f, 447);
+    float over = depth + 0.07f * bed.value + 0.02f * streaks(point, 26.0f, 405) - 0.015f;
+    float dry = smoothstepf(0.012f, -0.012f, over), seen = expf(-fmaxf(over, 0.0f) / clear);
     Vec3 milk = vec3_scale(shade->color, 1.0f + 0.06f * clampf(drift.value, -1.0f, 1.0f));
-    shade->color = vec3_lerp(milk, m->color2, 0.9f * seen);
+    Ground stones = pattern_stones(point, m->color2);
+    shade->color = vec3_lerp(milk, stones.color, 0.85f * seen + (0.15f - 0.15f * seen) * dry);
+    // Waves are shorter across the flow than along their crests.
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 5.0f;
-    PatternOctaves waves = pattern_octaves(point, scale, 6, 0.55f, 1.0f, 449);
+    PatternOctaves waves = pattern_octaves(point, scale, 7, 0.58f, 1.0f, 449);
     Vec3 slope = vec3(waves.slope.x, 0.0f, waves.slope.z);
-    float height = m->pattern_depth * (0.3f + 2.0f * rough * rough);
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, height));
+    float height = m->pattern_depth * (0.5f + 2.2f * rough * rough);
+    slope = vec3_lerp(vec3_scale(slope, height), vec3_scale(stones.slope, 0.5f), dry);
+    Vec2 at = {point->object_position.z, point->object_position.x};
+    float crests = 0.35f * smoothstepf(0.55f, 0.85f, rough + 0.12f * waves.value);
+    float foam = (1.0f - dry) * foam_share(crests, at, point->footprint);
+    shade->color = vec3_lerp(shade->color, vec3_splat(0.7f), foam);
+    shade->foam = fmaxf(dry, foam);
+    shade->normal = pattern_tilt(shade->normal, slope);
 }

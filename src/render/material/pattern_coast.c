@@ -63,7 +63,7 @@ static Ground rock(const Place *p, float *ledges)
     Crags crags = pattern_crags(point, &face);
     *ledges = crags.ledge;
     float light = 1.0f + 0.5f * (tone - 0.5f) + 0.14f * crags.tone + 0.12f * rough.value;
-    light *= (1.0f - 0.7f * crags.crevice) * (1.0f - 0.3f * pattern_streaks(point, 7.0f));
+    light *= (1.0f - 0.7f * crags.crevice) * (1.0f - 0.45f * pattern_streaks(point, 7.0f));
     Ground g = {.color = vec3_scale(color, clampf(light, 0.25f, 1.7f))};
     g.slope = vec3_madd(vec3_scale(rough.slope, 0.05f), 0.9f, crags.slope);
     g.slope.y += 0.6f * (tone - 0.5f);
@@ -96,9 +96,10 @@ static void grow_bands(const Place *p, Ground *g)
     float weed = smoothstepf(0.35f * half, -0.15f * half, above) *
                  smoothstepf(-0.5f, 0.1f, spots.value + 0.4f * p->fine);
     g->color = vec3_lerp(g->color, vec3(0.052f, 0.042f, 0.014f), 0.85f * weed);
-    // Wet rock is dark.
-    float wet = smoothstepf(half + 1.5f, 0.2f * half, above);
-    g->color = vec3_scale(g->color, 1.0f - 0.4f * wet);
+    // Wet rock is dark: always where waves reach, above it where spray has run down in streaks.
+    float run = pattern_streaks(p->point, 2.5f);
+    float wet = smoothstepf(half + 2.2f + 4.0f * run + 0.8f * spots.value, 0.3f * half, above);
+    g->color = vec3_scale(g->color, 1.0f - 0.55f * wet);
 }
 
 // ---- loose ground and plants

@@ -8,8 +8,8 @@
 
 enum { SEED_STONES = 601, SEED_RAGGED = 611, SEED_PATCHES = 613, SEED_SILT = 617 };
 
-// Rounded stones side by side: each has a tone of its own, dark gaps between them.
-static Ground stones(const SurfacePoint *point, Vec3 rock)
+// Each has a tone of its own; gaps between them are dark.
+Ground pattern_stones(const SurfacePoint *point, Vec3 rock)
 {
     enum { SIZES = 4 };
     static const float size[SIZES] = {0.9f, 0.32f, 0.12f, 0.045f}; // m
@@ -62,7 +62,7 @@ Ground pattern_shore(const SurfacePoint *point, Vec3 rock, float depth, Ground g
     float washed = smoothstepf(1.5f, 0.45f, above + 0.45f * ragged) *
                    smoothstepf(0.70f, 0.80f, upright + 0.06f * ragged);
     if (washed > 0.0f) {
-        Ground beach = stones(point, rock);
+        Ground beach = pattern_stones(point, rock);
         float still = smoothstepf(-1.2f, -3.5f, above + 0.6f * ragged);
         if (still > 0.0f) {
             Ground bed = silt(point, rock);

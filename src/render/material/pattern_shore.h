@@ -6,6 +6,9 @@
 #include "render/material/pattern_mix.h"
 #include "render/surface.h"
 
+// Rounded stones side by side, of 4 cm to 0.9 m, in tones of the rock's reflectance.
+Ground pattern_stones(const SurfacePoint *point, Vec3 rock);
+
 // The ground with its shore, where water is near (SurfacePoint.shore). rock: reflectance of dry
 // stones; depth: the factor by which the caller scales slopes later.
 Ground pattern_shore(const SurfacePoint *point, Vec3 rock, float depth, Ground ground);
