@@ -22,7 +22,8 @@ enum {
     PLANE_NORMAL = 8,   // 3
     PLANE_DEPTH = 11,   // logarithm of m; 0 is 1 m
     PLANE_SLACK,        // square of the depth difference allowed between neighbouring pixels
-    PLANE_COUNT
+    PLANE_WEIGHT,       // 3: of the channels' squared differences
+    PLANE_COUNT = PLANE_WEIGHT + 3
 };
 
 typedef struct Planes {
@@ -94,20 +95,35 @@ static float tolerance(float samples, float strength)
     return strength * strength * (0.5f + 12.0f / fmaxf(samples, 12.0f));
 }
 
+// Weights of the channels' squared differences, with a sum of 3. Light that does not take the
+// surface's colour, as a gloss of white light, is magnified by the division in the channels that
+// the surface absorbs, and the variance, which is of luminance, does not know of it. These weights
+// count the differences as they are seen, undivided; where light does take the surface's colour,
+// they make no difference.
+static void weigh_channels(const float divisor[3], float weight[3])
+{
+    float sum = divisor[0] * divisor[0] + divisor[1] * divisor[1] + divisor[2] * divisor[2];
+    for (int c = 0; c < 3; c++) {
+        weight[c] = 3.0f * divisor[c] * divisor[c] / sum;
+    }
+}
+
 static void fill_pixel(const Planes *p, const DenoiseInput *g, float strength, int x, int y)
 {
     int i = mirror(x, p->width), j = mirror(y, p->height);
     int64_t from = (int64_t)j * p->width + i, to = (int64_t)y * p->stride + x;
     const float *albedo = g->albedo->pixel + 3 * from;
-    float divisor[3];
+    float divisor[3], weight[3];
     divisor_of(albedo, divisor);
+    weigh_channels(divisor, weight);
+    float scale = luminance_rgb(divisor);
     for (int c = 0; c < 3; c++) {
         float radiance = finite_or_zero(g->color->pixel[from * g->color->channels + c]);
         p->plane[PLANE_COLOR + c][to] = radiance / divisor[c];
+        p->plane[PLANE_WEIGHT + c][to] = weight[c];
         p->plane[PLANE_ALBEDO + c][to] = albedo[c];
         p->plane[PLANE_NORMAL + c][to] = finite_or_zero(g->normal->pixel[3 * from + c]);
     }
-    float scale = luminance_rgb(divisor);
     float variance = smoothed_variance(g->variance, i, j) / (scale * scale);
     float samples = g->samples ? g->samples->pixel[from] : INFINITY;
     p->plane[PLANE_VARIANCE][to] = variance;
@@ -152,10 +168,13 @@ static void color_distances(const Planes *p, int y, int64_t offset, float *restr
     const float *restrict c = p->plane[PLANE_COLOR + 2] + y * p->stride;
     const float *restrict v = p->plane[PLANE_VARIANCE] + y * p->stride;
     const float *restrict t = p->plane[PLANE_TOLERANCE] + y * p->stride;
+    const float *restrict wa = p->plane[PLANE_WEIGHT] + y * p->stride;
+    const float *restrict wb = p->plane[PLANE_WEIGHT + 1] + y * p->stride;
+    const float *restrict wc = p->plane[PLANE_WEIGHT + 2] + y * p->stride;
     for (int x = -1; x <= p->width; x++) {
         float da = a[x] - a[x + offset], db = b[x] - b[x + offset], dc = c[x] - c[x + offset];
         float v0 = v[x], v1 = v[x + offset], least = v0 < v1 ? v0 : v1;
-        float square = (da * da + db * db + dc * dc) * (1.0f / 3.0f);
+        float square = (wa[x] * da * da + wb[x] * db * db + wc[x] * dc * dc) * (1.0f / 3.0f);
         out[x] = (square - (v0 + least)) / (1e-10f + (t[x] + t[x + offset]));
     }
 }

@@ -252,6 +252,54 @@ static void test_variance_of_few_samples(void **state)
     free_scene(&s);
 }
 
+// Rare white glints on a grey leaf and on a green one of the same luminance, with the same noise.
+// What is left of it must be the same: white light is bright in the channels that a green leaf
+// absorbs, after it has been divided by the leaf's colour.
+static double glints_left(const float albedo[3])
+{
+    enum { SAMPLES = 16 };
+    Scene s = make_scene(0.0f);
+    Image *samples = image_new(WIDTH, HEIGHT, 1, NULL);
+    const float level = 0.02f, glint = 2.0f, share = 0.005f; // of a sample
+    for (int64_t i = 0; i < (int64_t)WIDTH * HEIGHT; i++) {
+        int x = (int)(i % WIDTH), y = (int)(i / WIDTH), glints = 0;
+        for (uint64_t k = 0; k < SAMPLES; k++) {
+            glints += random_unit(random_key(random_key(12, (uint64_t)i), k)) < share;
+        }
+        float met = (float)glints / SAMPLES, white = glint * met, mean = glint * share;
+        float variance = glint * glint * met * (1.0f - met) / (SAMPLES - 1);
+        set_pixel(s.noisy, x, y, level * albedo[0] + white, level * albedo[1] + white,
+                  level * albedo[2] + white);
+        set_pixel(s.truth, x, y, level * albedo[0] + mean, level * albedo[1] + mean,
+                  level * albedo[2] + mean);
+        set_pixel(s.albedo, x, y, albedo[0], albedo[1], albedo[2]);
+        set_pixel(s.normal, x, y, 0, 0, 1);
+        set_pixel(s.depth, x, y, 3.0f, 0, 0);
+        s.variance->pixel[i] = variance;
+        samples->pixel[i] = SAMPLES;
+    }
+    Run run = run_default();
+    DenoiseInput input = {s.noisy, s.albedo, s.normal, s.depth, s.variance, samples};
+    Image *out = image_denoise(&input, 1.0f, &run, NULL);
+    assert_non_null(out);
+    double left = rmse(out, s.truth) / rmse(s.noisy, s.truth);
+    image_free(out);
+    image_free(samples);
+    free_scene(&s);
+    return left;
+}
+
+static void test_white_glints_on_colour(void **state)
+{
+    (void)state;
+    double grey = glints_left((float[3]){0.24f, 0.24f, 0.24f});
+    double green = glints_left((float[3]){0.13f, 0.29f, 0.05f});
+    double red = glints_left((float[3]){0.7f, 0.12f, 0.07f});
+    if (green > 1.6 * grey || red > 1.6 * grey) {
+        fail_msg("noise left: %g on grey, %g on green, %g on red", grey, green, red);
+    }
+}
+
 // Smaller than the search window, with broken pixels and alpha.
 static void test_tiny_image(void **state)
 {
@@ -291,6 +339,7 @@ int main(void)
         cmocka_unit_test(test_strength_zero_copies),
         cmocka_unit_test(test_refuses_and_stops),
         cmocka_unit_test(test_variance_of_few_samples),
+        cmocka_unit_test(test_white_glints_on_colour),
         cmocka_unit_test(test_tiny_image),
         cmocka_unit_test(test_silhouettes_do_not_glow),
     };

@@ -116,6 +116,38 @@ static void a_blossom_has_its_petals(void **state)
 }
 
 // A fruit without a dimple is an ellipsoid: its volume by the divergence theorem.
+// The form for a few pixels has the petals of the true one: about their area and reach, in a tenth
+// of the faces, and stalks, but nothing else.
+static void a_small_blossom_keeps_its_white(void **state)
+{
+    (void)state;
+    OrganParams params = plain(ORGAN_BLOSSOM);
+    params.per_cluster = 4;
+    Mesh *fine[TISSUES], *small[TISSUES];
+    params.detail = 1;
+    make(&params, fine);
+    params.detail = 0;
+    make(&params, small);
+    double area[2] = {0.0, 0.0};
+    for (int64_t f = 0; f < fine[TISSUE_PETAL]->face_count; f++) {
+        area[0] += quad_area(fine[TISSUE_PETAL], f);
+    }
+    for (int64_t f = 0; f < small[TISSUE_PETAL]->face_count; f++) {
+        assert_true(quad_area(small[TISSUE_PETAL], f) > 1e-11);
+        area[1] += quad_area(small[TISSUE_PETAL], f);
+    }
+    if (fabs(area[1] / area[0] - 1.0) > 0.15) {
+        fail_msg("petals of %g m2 instead of %g m2", area[1], area[0]);
+    }
+    assert_int_equal(small[TISSUE_PETAL]->face_count, 4 * 5 * 2);
+    assert_int_equal(small[TISSUE_GREEN]->face_count, 4 * 3);
+    Aabb a = mesh_bounds(fine[TISSUE_PETAL]), b = mesh_bounds(small[TISSUE_PETAL]);
+    assert_true(vec3_distance(a.low, b.low) < 0.2f * params.length);
+    assert_true(vec3_distance(a.high, b.high) < 0.2f * params.length);
+    clear(fine);
+    clear(small);
+}
+
 static void a_fruit_is_an_ellipsoid(void **state)
 {
     (void)state;
@@ -164,6 +196,7 @@ int main(void)
         cmocka_unit_test(organs_have_their_tissues_and_size),
         cmocka_unit_test(clusters_have_as_many_as_asked_for),
         cmocka_unit_test(a_blossom_has_its_petals),
+        cmocka_unit_test(a_small_blossom_keeps_its_white),
         cmocka_unit_test(a_fruit_is_an_ellipsoid),
         cmocka_unit_test(cones_open),
     };

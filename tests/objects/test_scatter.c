@@ -4,6 +4,7 @@
 #include "mesh/ball.h"
 #include "mesh/leaf/leaf.h"
 #include "objects/common/instanced.h"
+#include "objects/common/thinning.h"
 #include "objects/kinds.h"
 #include "objects/scatter/scatter.h"
 #include "objects/stone/stone.h"
@@ -393,6 +394,113 @@ static void many_sprays_keep_their_size(void **state)
     geometry_clear(&geometry);
 }
 
+// What thinning_shares makes least: the variance of the area that is seen, of leaves kept by
+// chance.
+static double variance_of(const ThinnedLeaves *kind, const double *share, int kinds)
+{
+    double sum = 0.0;
+    for (int i = 0; i < kinds; i++) {
+        sum += kind[i].area * kind[i].area / (share[i] * (double)kind[i].count);
+    }
+    return sum;
+}
+
+// No other shares of the same faces have less variance: random exchanges between two kinds.
+static void no_other_shares_are_better(void **state)
+{
+    (void)state;
+    enum { KINDS = 4 };
+    ThinnedLeaves kind[KINDS] = {{.count = 1000, .area = 40.0, .faces = 50.0},
+                                 {.count = 200000, .area = 1.0, .faces = 20.0},
+                                 {.count = 30000, .area = 25.0, .faces = 400.0},
+                                 {.count = 5000, .area = 0.01, .faces = 2.0}};
+    const double most = 5e5;
+    thinning_shares(kind, KINDS, 1e9, most);
+    double share[KINDS], faces = 0.0;
+    for (int i = 0; i < KINDS; i++) {
+        share[i] = kind[i].share;
+        assert_true(share[i] > 0.0 && share[i] <= 1.0);
+        faces += share[i] * kind[i].faces * (double)kind[i].count;
+    }
+    assert_true(fabs(faces / most - 1.0) < 1e-9);
+    assert_true(share[0] == 1.0); // it is cheap for its area: none is left out
+    double least = variance_of(kind, share, KINDS);
+    for (uint64_t i = 0; i < 2000; i++) {
+        int a = (int)(random_key(21, i) % KINDS), b = (int)(random_key(22, i) % KINDS);
+        double other[KINDS];
+        memcpy(other, share, sizeof other);
+        double part = 0.2 * (double)random_unit(random_key(23, i)) * share[a];
+        other[a] -= part;
+        other[b] +=
+            part * kind[a].faces * (double)kind[a].count / (kind[b].faces * (double)kind[b].count);
+        assert_true(a == b || other[b] > 1.0 ||
+                    variance_of(kind, other, KINDS) > least * (1.0 - 1e-12));
+    }
+    thinning_shares(kind, KINDS, 36000.0, 1e12);
+    double kept = 0.0;
+    for (int i = 0; i < KINDS; i++) {
+        kept += kind[i].share * (double)kind[i].count;
+    }
+    assert_true(fabs(kept / 36000.0 - 1.0) < 1e-9);
+    thinning_shares(kind, KINDS, 1e9, 1e12);
+    assert_true(kind[2].share == 1.0 && kind[1].share == 1.0);
+}
+
+// A square of this size (m) at `count` places.
+static Part squares(float size, int64_t count, uint64_t key)
+{
+    Part part = {.kind = PART_MESH, .mesh = mesh_new(4, 4, 1, 0, NULL)};
+    static const Vec3 corner[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    for (uint32_t i = 0; i < 4; i++) {
+        part.mesh->position[i] = vec3_scale(corner[i], size);
+        part.mesh->index[i] = i;
+    }
+    part.instance = memory_alloc(count, sizeof *part.instance, NULL);
+    for (int64_t i = 0; i < count; i++) {
+        Vec3 p = vec3_scale(random_direction(random_key(key, (uint64_t)i)), 5.0f);
+        part.instance[i] = transform_from_axes(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), p);
+    }
+    part.instance_count = count;
+    return part;
+}
+
+// Blossom among ten times as many leaves just out of their buds: the buds are what is left out, so
+// that no blossom grows. All parts in proportion were enlarged until petals were as large as hands.
+static void buds_do_not_enlarge_blossom(void **state)
+{
+    (void)state;
+    enum { BLOSSOMS = 2000, BUDS = 20000 };
+    Geometry model = {0}, geometry = {0};
+    assert_true(geometry_add(&model, squares(0.05f, BLOSSOMS, 31), NULL));
+    assert_true(geometry_add(&model, squares(0.004f, BUDS, 32), NULL));
+    double area = BLOSSOMS * 0.05 * 0.05 + BUDS * 0.004 * 0.004, left = 0.0, largest = 0.0;
+    Transform place =
+        transform_from_axes(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(0, 0, 0));
+    Instanced how = {.place = &place, .count = 1, .most_leaves = 2300, .most_faces = 1000000};
+    Run run = run_default();
+    Recipe recipe = {.seed = 9, .run = &run};
+    Placing placing = {.recipe = &recipe, .geometry = &geometry};
+    assert_true(instanced_add(&model, &how, &placing, NULL));
+    int64_t faces = 0;
+    for (int64_t i = 0; i < geometry.count; i++) {
+        const Mesh *mesh = geometry.part[i].mesh;
+        faces += mesh->face_count;
+        for (int64_t f = 0; f < mesh->face_count; f++) {
+            double side = (double)vec3_distance(mesh->position[mesh->index[4 * f]],
+                                                mesh->position[mesh->index[4 * f + 1]]);
+            left += side * side;
+            largest = fmax(largest, side);
+        }
+    }
+    assert_in_range(faces, 2000, 2600);
+    assert_true(fabs(left / area - 1.0) < 0.05);
+    if (largest > 0.0501) {
+        fail_msg("blossoms of 5 cm became %g cm wide", 100.0 * largest);
+    }
+    geometry_clear(&model);
+    geometry_clear(&geometry);
+}
+
 // Number of places within `reach` of the eye, each counted by itself.
 static int64_t count_within(const Transform *place, int64_t count, Vec3 eye, float reach)
 {
@@ -503,6 +611,8 @@ int main(void)
         cmocka_unit_test(copies_become_fewer_beyond_a_range),
         cmocka_unit_test(copies_every_thing),
         cmocka_unit_test(many_sprays_keep_their_size),
+        cmocka_unit_test(no_other_shares_are_better),
+        cmocka_unit_test(buds_do_not_enlarge_blossom),
         cmocka_unit_test(near_copies_keep_every_leaf),
         cmocka_unit_test(near_copies_are_limited),
     };

@@ -8,6 +8,25 @@ enum { STREAM_OPEN = 1, STREAM_ROLL = 2, STREAM_LENGTH = 3 };
 
 enum { PETALS_OF_WHORL = 5, SEPALS = 5, ROWS = 6 };
 
+// A petal of a few pixels, folded along its middle, of about the area of a true one.
+static void add_plain_petal(Quads *quads, float length, float width, float cup)
+{
+    float half = 0.55f * width, sag = -0.12f * length;
+    const Vec3 corner[6] = {{0, 0, 0},
+                            {0.85f * half, 0.45f * length, 0.2f * sag + 0.7f * cup * half},
+                            {0.8f * half, 0.92f * length, 0.8f * sag + 0.6f * cup * half},
+                            {0, 0.95f * length, sag},
+                            {-0.8f * half, 0.92f * length, 0.8f * sag + 0.6f * cup * half},
+                            {-0.85f * half, 0.45f * length, 0.2f * sag + 0.7f * cup * half}};
+    uint32_t v[6];
+    for (int i = 0; i < 6; i++) {
+        v[i] = quads_vertex(quads, corner[i],
+                            (Vec2){0.5f + 0.5f * corner[i].x / half, corner[i].y / length});
+    }
+    quads_face(quads, v[0], v[1], v[2], v[3]);
+    quads_face(quads, v[0], v[3], v[4], v[5]);
+}
+
 // A petal: narrow at its base, broad and notched at its end, hollow like a spoon.
 static void add_petal(Quads *quads, float length, float width, float cup, uint64_t key)
 {
@@ -50,7 +69,12 @@ static void add_whorls(OrganBuild *build, const Transform *outer, uint64_t seed)
         Quads *quads = &build->tissue[TISSUE_PETAL];
         quads->place = &place;
         float size = 1.0f - 0.3f * inner;
-        add_petal(quads, size * p->length, size * p->width, 0.35f - 0.2f * p->open, key);
+        float cup = 0.35f - 0.2f * p->open;
+        if (p->detail > 0) {
+            add_petal(quads, size * p->length, size * p->width, cup, key);
+        } else {
+            add_plain_petal(quads, size * p->length, size * p->width, cup);
+        }
         quads->place = outer;
     }
 }
@@ -82,6 +106,9 @@ void organ_blossom(OrganBuild *build, uint64_t seed)
     const OrganParams *p = build->params;
     const Transform *outer = build->tissue[TISSUE_PETAL].place;
     add_whorls(build, outer, seed);
+    if (p->detail == 0) {
+        return;
+    }
     add_stamens(build, seed);
     // The cup below, and sepals.
     const Vec2 cup[4] = {{0.02f * p->length, -0.16f * p->length},

@@ -30,18 +30,19 @@ Transform organ_frame(Vec3 p, float open, float turn)
 void organ_stalk(OrganBuild *build, Vec3 p, float radius)
 {
     enum { POINTS = 5 };
+    int points = build->params->detail > 0 ? POINTS : 2;
     if (!(vec3_dot(p, p) > 0.0f)) {
         return;
     }
     Vec3 axis[POINTS], knee = vec3(0, 0.45f * vec3_length(p), 0);
     float thick[POINTS];
-    for (int i = 0; i < POINTS; i++) {
-        float t = (float)i / (POINTS - 1);
+    for (int i = 0; i < points; i++) {
+        float t = (float)i / (float)(points - 1);
         Vec3 first = vec3_scale(knee, t), second = vec3_lerp(knee, p, t);
         axis[i] = vec3_lerp(first, second, t);
         thick[i] = radius * (1.0f - 0.3f * t);
     }
-    quads_tube(&build->tissue[TISSUE_GREEN], axis, thick, POINTS, 3, (Vec2){0.5f, 0.0f});
+    quads_tube(&build->tissue[TISSUE_GREEN], axis, thick, points, 3, (Vec2){0.5f, 0.0f});
 }
 
 void organ_sheet(Quads *quads, const float *length, const float *half, const float *lift, int rows,

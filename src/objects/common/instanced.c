@@ -3,6 +3,8 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "objects/common/near_copies.h"
+#include "objects/common/thinning.h"
+#include "shape/mesh_close.h"
 
 #include <stdlib.h>
 
@@ -174,16 +176,47 @@ static bool add_wood(Part *part, const Instanced *how, const Placing *placing, E
     return add_at_places(wood, 0.0f, 0.5f, how, placing, e);
 }
 
-// Faces of all foliage in the forms that a model with so many leaves takes.
-static int64_t count_faces(const Geometry *model, int64_t faces_each)
+// m2: the area of all leaves of the part in this form.
+static double area_of(const Part *part, const Mesh *form)
 {
-    int64_t faces = 0;
+    double squares = 0.0; // of the instances' scales
+    for (int64_t i = 0; i < part->instance_count; i++) {
+        const Transform *t = &part->instance[i];
+        for (int row = 0; row < 3; row++) {
+            for (int column = 0; column < 3; column++) {
+                squares += (double)(t->m[row][column] * t->m[row][column]) / 3.0;
+            }
+        }
+    }
+    return squares * mesh_area(form);
+}
+
+// The share of each part's leaves that is baked; the caller frees it.
+static double *shares_of(const Geometry *model, int64_t faces_each, const Instanced *how, Error *e)
+{
+    double *share = memory_alloc(model->count + 1, sizeof *share, e);
+    ThinnedLeaves *kind = share ? memory_alloc(model->count + 1, sizeof *kind, e) : NULL;
+    if (!kind) {
+        free(share);
+        return NULL;
+    }
+    int kinds = 0;
     for (int64_t i = 0; i < model->count; i++) {
         const Part *part = &model->part[i];
-        faces +=
-            is_foliage(part) ? part->instance_count * form_of(part, faces_each)->face_count : 0;
+        if (is_foliage(part)) {
+            const Mesh *form = form_of(part, faces_each);
+            kind[kinds++] = (ThinnedLeaves){.count = part->instance_count,
+                                            .area = area_of(part, form),
+                                            .faces = (double)form->face_count};
+        }
     }
-    return faces;
+    thinning_shares(kind, kinds, (double)how->most_leaves, (double)how->most_faces);
+    kinds = 0;
+    for (int64_t i = 0; i < model->count; i++) {
+        share[i] = is_foliage(&model->part[i]) ? kind[kinds++].share : 1.0;
+    }
+    free(kind);
+    return share;
 }
 
 // Distance (m) within which the forms of the leaves would show.
@@ -235,15 +268,16 @@ static bool add_leaves(Part *part, int64_t faces_each, float share, const NearCo
 }
 
 // Adds the parts at the places, which are sorted.
-static bool add_sorted(Geometry *model, int64_t faces_each, float share, const NearCopies *copies,
-                       const Instanced *how, const Placing *placing, Error *e)
+static bool add_sorted(Geometry *model, int64_t faces_each, const double *share,
+                       const NearCopies *copies, const Instanced *how, const Placing *placing,
+                       Error *e)
 {
     Instanced all = *how;
     all.place = copies->place;
     bool done = true;
     for (int64_t i = 0; done && i < model->count; i++) {
         Part *part = &model->part[i];
-        done = is_foliage(part) ? add_leaves(part, faces_each, share, copies, how,
+        done = is_foliage(part) ? add_leaves(part, faces_each, (float)share[i], copies, how,
                                              random_key(how->seed, (uint64_t)i), placing, e)
                                 : add_wood(part, &all, placing, e);
     }
@@ -258,14 +292,16 @@ bool instanced_add(Geometry *model, const Instanced *how, const Placing *placing
     int64_t leaves = count_leaves(model);
     int64_t left = leaves < how->most_leaves ? leaves : how->most_leaves;
     int64_t faces_each = how->distant || left == 0 ? 1 : how->most_faces / left;
-    float share = leaves > 0 ? (float)left / (float)leaves : 1.0f;
-    float faces = share * (float)count_faces(model, faces_each), most = (float)how->most_faces;
-    share = faces > most ? share * most / faces : share;
+    double *share = shares_of(model, faces_each, how, e);
+    if (!share) {
+        return false;
+    }
     NearCopies copies;
     bool done = near_copies_init(&copies, how->place, how->count, how->eye,
                                  showing_within(model, faces_each),
                                  leaves > 0 ? MOST_NEAR_LEAVES / leaves : 0, e) &&
                 add_sorted(model, faces_each, share, &copies, how, placing, e);
     near_copies_free(&copies);
+    free(share);
     return done;
 }

@@ -27,7 +27,9 @@ enum {
 // Of an organ: here, once for each tissue, and at least in the ray tracer.
 #define ORGAN_BYTES (3.0 * (sizeof(Transform) + 2 * sizeof(float)) + 100.0)
 
-#define SCALE_DEPTH 0.3f // of a scaly organ's width: what its coarse form leaves out
+// What coarse forms leave out.
+#define SCALE_DEPTH 0.3f  // of a scaly organ's width
+#define PETAL_SHAPE 0.15f // of a petal's length
 
 typedef struct Organs {
     const OrganGroup *group;
@@ -190,14 +192,18 @@ static float lowest_of(const OrganGroup *group, const CurveSet *curves, const bo
                                                       : -INFINITY;
 }
 
-// Forms without scales for organs of a few pixels, where there are some; else NULL. The caller
-// frees each.
+static bool is_scaly(OrganKind kind)
+{
+    return kind == ORGAN_CONE || kind == ORGAN_CATKIN;
+}
+
+// Simpler forms for organs of a few pixels, where there are some; else NULL. The caller frees each.
 static bool coarse_meshes(const OrganParams *form, uint64_t key, Mesh *mesh[TISSUES], Error *e)
 {
-    bool scaly = form->kind == ORGAN_CONE || form->kind == ORGAN_CATKIN;
+    bool some = is_scaly(form->kind) || form->kind == ORGAN_BLOSSOM;
     OrganParams plain = *form;
     plain.detail = 0;
-    return !scaly || organ_meshes(&plain, key, mesh, e);
+    return !some || organ_meshes(&plain, key, mesh, e);
 }
 
 // Adds a part for each tissue of a variant; the instances are copied for all but the last.
@@ -218,13 +224,14 @@ static bool add_variant(const OrganGroup *group, int variant, LeafBatch *batch,
                         .detail = group->detail};
     uint64_t key = random_key(random_key(seed, STREAM_MESHES), (uint64_t)variant);
     Mesh *mesh[TISSUES], *coarse[TISSUES] = {NULL};
+    float left_out = is_scaly(form.kind) ? SCALE_DEPTH * form.width : PETAL_SHAPE * form.length;
     bool done = organ_meshes(&form, key, mesh, e) && coarse_meshes(&form, key, coarse, e);
     for (int t = 0; done && t < TISSUES; t++) {
         if (!mesh[t]) {
             continue;
         }
         Part part = {.mesh = mesh[t], .instance_count = batch->count};
-        part.coarse[0] = (CoarseMesh){.mesh = coarse[t], .error = SCALE_DEPTH * form.width};
+        part.coarse[0] = (CoarseMesh){.mesh = coarse[t], .error = left_out};
         mesh[t] = coarse[t] = NULL;
         part.instance = memory_alloc(batch->count, sizeof *part.instance, e);
         part.variation = memory_alloc(batch->count, sizeof *part.variation, e);
