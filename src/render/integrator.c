@@ -109,6 +109,7 @@ static void start_paths(const Tracer *tracer, int x, int y, int sample, int coun
                          .mirrored = true,
                          .straight = true,
                          .clear = 1.0f,
+                         .near = NEAR_BY_POWER,
                          .ray.far = INFINITY};
         result[i] = (PathResult){.albedo = vec3_splat(1.0f), .alpha = 1.0f, .depth = INFINITY};
         sampler_lanes_put(&wave->lanes, i, &sampler[i], SET_CAMERA);
@@ -137,7 +138,8 @@ static void add_backgrounds(const Tracer *tracer, Path *const path[], int count)
     Vec3 radiance[WAVE_SIZE];
     for (int i = 0; i < count; i++) {
         const Path *p = path[i];
-        ray[i] = (BackgroundRay){p->from.position, p->ray.direction, p->bsdf_pdf, p->spread};
+        float pdf = p->bsdf_pdf / lights_mix(tracer->lights, p->near, false);
+        ray[i] = (BackgroundRay){p->from.position, p->ray.direction, pdf, p->spread};
     }
     lights_background_many(tracer->lights, ray, count, radiance);
     for (int i = 0; i < count; i++) {

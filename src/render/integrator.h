@@ -7,6 +7,7 @@
 #include "render/camera.h"
 #include "render/cloud/clouds.h"
 #include "render/filter.h"
+#include "render/lamp_field.h"
 #include "render/light/lights.h"
 #include "render/medium/droplets.h"
 #include "render/rain/rain.h"
@@ -34,6 +35,7 @@ typedef struct Tracer {
     bool has_glow;          // lamps, or parts that glow
     const CloudSet *clouds; // NULL = none
     DropletPhase droplets;  // of clouds
+    const LampField *lamp_field; // light of lamps in clouds; NULL = paths find it all
     Rain rain;
     float cloud_haze; // m over which distance fades clouds to 1 / e
     CameraFrame camera;

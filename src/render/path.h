@@ -61,6 +61,8 @@ typedef struct Path {
     uint64_t cloud_key; // state of the random numbers that track through clouds
     int cloud_order;    // how far the phase function of droplets has widened: scatterings by them
     bool in_cloud;      // scattered by a droplet since the last surface
+    bool lamps_known;   // the light of lamps, up to the next surface, has been added
+    float near;         // chance of a lamp among the lights sampled where the ray's direction was
     bool mirrored;      // only mirror reflections since the camera
     bool gathers;       // left a point, not of open water, where light was gathered through it
     bool straight;      // only films and index-matched interfaces since the camera
@@ -187,6 +189,9 @@ Travel path_scatter_in_cloud(Path *path, float t);
 // Share of light that clouds let pass along a ray from the camera up to `far`, without wisps.
 // *normal: of the clouds, times what they hide.
 float path_see_past_clouds(const Path *path, float far, Vec3 *normal);
+
+// Factor on extinctions where the phase function has widened to an even one.
+float cloud_even_extinction(const DropletPhase *droplets);
 
 // What leaves a surface that diffuse light has reached meets clouds as diffuse light, too.
 void path_leave_diffusely(Path *path);

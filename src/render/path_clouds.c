@@ -29,6 +29,11 @@ static float extinction_scale(const Tracer *tracer, int order)
            (1.0f - droplet_phase_mean_cosine(&phase));
 }
 
+float cloud_even_extinction(const DropletPhase *droplets)
+{
+    return 1.0f - droplet_phase_mean_cosine(droplets);
+}
+
 void path_leave_diffusely(Path *path)
 {
     path->cloud_order = path->cloud_order > ORDERS ? path->cloud_order : ORDERS;
@@ -45,16 +50,30 @@ float path_pass_clouds(Path *path, const Ray *ray)
                        &path->cloud_key);
 }
 
-// The share of a camera ray that clouds hide. *normal: the side from which they get thinner,
-// weighted by how much they hide. It depends on the ray alone, not on where a droplet scatters the
-// path, so that it can guide a denoiser.
-static float hidden(const CloudSet *clouds, const CloudRay *ray, Vec3 *normal)
+// The share of the light in a cloud that comes from lamps, by the field. 0 beyond it.
+static float lit_by_lamps(const Tracer *tracer, Vec3 p)
 {
-    float distance, opacity = clouds_seen(clouds, ray, &distance);
+    Vec3 mean;
+    if (!lamp_field_at(tracer->lamp_field, p, &mean)) {
+        return 0.0f;
+    }
+    float lamps = luminance(mean), above = lights_mean_above(tracer->lights);
+    return lamps / fmaxf(lamps + above, 1e-30f);
+}
+
+// The share of a camera ray that clouds hide. *normal: the side from which they get thinner,
+// weighted by how much they hide and by the light from outside, which comes from a side: what glows
+// from within has no form, and a denoiser would draw that of the normals. It depends on the ray
+// alone, not on where a droplet scatters the path, so that it can guide a denoiser.
+static float hidden(const Tracer *tracer, const CloudRay *ray, Vec3 *normal)
+{
+    float distance, opacity = clouds_seen(tracer->clouds, ray, &distance);
     *normal = vec3_splat(0.0f);
     if (opacity > 0.0f) {
-        Vec3 slope = clouds_slope(clouds, vec3_madd(ray->origin, distance, ray->direction));
-        *normal = vec3_scale(slope, -opacity / (1.0f + vec3_length(slope)));
+        Vec3 p = vec3_madd(ray->origin, distance, ray->direction);
+        Vec3 slope = clouds_slope(tracer->clouds, p);
+        float weight = opacity * (1.0f - lit_by_lamps(tracer, p));
+        *normal = vec3_scale(slope, -weight / (1.0f + vec3_length(slope)));
     }
     return opacity;
 }
@@ -62,7 +81,7 @@ static float hidden(const CloudSet *clouds, const CloudRay *ray, Vec3 *normal)
 float path_see_past_clouds(const Path *path, float far, Vec3 *normal)
 {
     CloudRay part = {.origin = path->ray.origin, .direction = path->ray.direction, .far = far};
-    float opacity = hidden(path->tracer->clouds, &part, normal);
+    float opacity = hidden(path->tracer, &part, normal);
     *normal = vec3_scale(*normal, opacity);
     return 1.0f - opacity;
 }
@@ -71,17 +90,17 @@ float path_see_past_clouds(const Path *path, float far, Vec3 *normal)
 // pixel share the normal along the ray through its middle.
 static void note_cloud(Path *path)
 {
-    const CloudSet *clouds = path->tracer->clouds;
+    const Tracer *tracer = path->tracer;
     if (path->crossings > 0) {
         CloudRay part = {
             .origin = path->ray.origin, .direction = path->ray.direction, .far = INFINITY};
-        hidden(clouds, &part, &path->result->normal);
+        hidden(tracer, &part, &path->result->normal);
         return;
     }
     CloudGuide *guide = path->guide;
     if (!guide->known) {
         CloudRay all = {.origin = guide->origin, .direction = guide->direction, .far = INFINITY};
-        hidden(clouds, &all, &guide->normal);
+        hidden(tracer, &all, &guide->normal);
         guide->known = true;
     }
     path->result->normal = guide->normal;
@@ -107,7 +126,8 @@ static void sample_light(Path *path, Vec3 point, const float u[4])
     const Tracer *tracer = path->tracer;
     LightSample light;
     if (!lights_can_sample(tracer->lights) ||
-        !lights_sample(tracer->lights, &path->from, u, &light)) {
+        !lights_sample_mixed(tracer->lights, &path->from, path->near, u, &light) ||
+        (path->lamps_known && isfinite(light.distance))) {
         return;
     }
     float cosine = vec3_dot(path->ray.direction, light.direction);
@@ -121,6 +141,25 @@ static void sample_light(Path *path, Vec3 point, const float u[4])
     path_cast_shadow_through(path, &shadow, &light, &path->media,
                              vec3_scale(light.radiance, weight));
     path->cloud_order--;
+}
+
+// Where droplets scatter evenly, the field holds all that lamps bring from there up to the next
+// surface. Before, it tells how often to look for them.
+static void add_lamps(Path *path, Vec3 point)
+{
+    const float least = 0.1f;
+    Vec3 mean;
+    path->near = path->lamps_known ? 0.0f : NEAR_BY_POWER;
+    if (path->lamps_known || !lamp_field_at(path->tracer->lamp_field, point, &mean)) {
+        return;
+    }
+    if (path->cloud_order < ORDERS) {
+        path->near = clampf(lit_by_lamps(path->tracer, point), least, 1.0f - least);
+        return;
+    }
+    path_add_light(path, mean);
+    path->lamps_known = true;
+    path->near = 0.0f;
 }
 
 // Roulette would not do: without absorption light lasts for hundreds of scatterings, over which the
@@ -146,6 +185,7 @@ Travel path_scatter_in_cloud(Path *path, float t)
     uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * path->stretches++);
     sampler_draw(&path->sampler, set, u);
     sampler_draw(&path->sampler, set + 1, v);
+    add_lamps(path, point);
     sample_light(path, point, u);
     DropletPhase droplets = phase_at(tracer, path->cloud_order);
     Vec3 direction = droplet_phase_draw(&droplets, path->ray.direction, v[0], v[1]);

@@ -20,6 +20,7 @@ static Ray ray_from(Path *path, const SurfacePoint *point, Vec3 direction)
 // Straight on through an index-matched interface. False after too many of them.
 static bool cross_index_matched(Path *path, const SurfacePoint *point)
 {
+    path->lamps_known = false; // the field ends at any surface
     media_cross(&path->media, path->tracer, point->material, point->backface);
     path->throughput =
         vec3_mul(path->throughput, path->tracer->world->material[point->material].color);
@@ -98,10 +99,15 @@ static bool shade(Vertex *vertex)
     } else if (path->mirrored) {
         note_mirrored(path, bsdf);
     }
+    bool known = path->lamps_known;
+    path->lamps_known = false;
     if (bsdf_is_emissive(bsdf)) {
+        if (known) {
+            return false;
+        }
         SurfacePlace place = accel_place(tracer->accel, &vertex->hit);
-        float glow =
-            lights_glow(tracer->lights, &place, point->position, &path->from, path->bsdf_pdf);
+        float pdf = path->bsdf_pdf / lights_mix(tracer->lights, path->near, true);
+        float glow = lights_glow(tracer->lights, &place, point->position, &path->from, pdf);
         path_add_light(path, vec3_scale(bsdf->emission, glow));
         return false;
     }
@@ -113,6 +119,7 @@ static bool shade(Vertex *vertex)
         path_leave_diffusely(path);
     }
     if (!(bsdf->traits & TRAIT_THIN)) {
+        path->near = NEAR_BY_POWER;
         bool opaque = bsdf->traits & TRAIT_OPAQUE;
         path->from =
             (LightReceiver){point->position, opaque ? point->geometric_normal : vec3_splat(0.0f)};
@@ -129,8 +136,12 @@ Arrival path_arrive(Vertex *vertex)
     path_see_through_air(path, hit->t, tracer->world->sky.haze_distance);
     int light = accel_light(tracer->accel, hit);
     if (light >= 0) {
+        if (path->lamps_known) {
+            return ARRIVAL_ENDED;
+        }
+        float pdf = path->bsdf_pdf / lights_mix(tracer->lights, path->near, true);
         path_add_light(path, lights_emitted(tracer->lights, light, path->start, path->ray.direction,
-                                            path->travelled + hit->t, path->bsdf_pdf));
+                                            path->travelled + hit->t, pdf));
         return ARRIVAL_ENDED;
     }
     path->travelled += hit->t;

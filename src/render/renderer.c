@@ -13,8 +13,9 @@ struct Renderer {
     MaterialSet *materials;
     Accel *accel;
     Lights *lights;
-    CloudSet *clouds; // NULL = none
-    RainPhase *rain;  // NULL = no shower
+    CloudSet *clouds;      // NULL = none
+    RainPhase *rain;       // NULL = no shower
+    LampField *lamp_field; // NULL = none
     const char *isa;
 };
 
@@ -73,6 +74,24 @@ static MaterialSet *prepare_materials(const World *world, const Run *run, Error 
     return set;
 }
 
+static void fill_tracer(Tracer *tracer, const Renderer *renderer);
+
+// Of all that the tracer holds.
+static bool build_lamp_field(Renderer *renderer, const Run *run, Error *e)
+{
+    lamp_field_free(renderer->lamp_field);
+    renderer->lamp_field = NULL;
+    Tracer *tracer = memory_alloc_zero(1, sizeof *tracer, e);
+    if (!tracer) {
+        return false;
+    }
+    fill_tracer(tracer, renderer);
+    uint64_t key = random_key(renderer->world->cloud_seed, 0x1a3b);
+    bool done = lamp_field_make(&renderer->lamp_field, tracer, key, run, e);
+    free(tracer);
+    return done;
+}
+
 Renderer *renderer_new(const World *world, const char *isa, const Run *run, Error *e)
 {
     Renderer *renderer = memory_alloc_zero(1, sizeof *renderer, e);
@@ -83,7 +102,8 @@ Renderer *renderer_new(const World *world, const char *isa, const Run *run, Erro
     renderer->isa = isa;
     renderer->materials = prepare_materials(world, run, e);
     if (!renderer->materials || !build_accel(renderer, run, e) || !build_lights(renderer, run, e) ||
-        !build_clouds(renderer, run, e) || !build_rain(renderer, e)) {
+        !build_clouds(renderer, run, e) || !build_rain(renderer, e) ||
+        !build_lamp_field(renderer, run, e)) {
         renderer_free(renderer);
         return NULL;
     }
@@ -109,17 +129,20 @@ bool renderer_update(Renderer *renderer, unsigned changed, const Run *run, Error
     if (changed & RENDERER_CLOUDS && !build_clouds(renderer, run, e)) {
         return false;
     }
+    unsigned lit = changed & (RENDERER_CLOUDS | RENDERER_LAMPS | RENDERER_MATERIALS);
     changed &= ~(unsigned)RENDERER_CLOUDS;
     if (changed == RENDERER_SKY_TURNED && !lights_water(renderer->lights)) {
         lights_turn_sky(renderer->lights);
         return true;
     }
-    return changed == 0 || (build_lights(renderer, run, e) && build_rain(renderer, e));
+    return (changed == 0 || (build_lights(renderer, run, e) && build_rain(renderer, e))) &&
+           (lit == 0 || build_lamp_field(renderer, run, e));
 }
 
 void renderer_free(Renderer *renderer)
 {
     if (renderer) {
+        lamp_field_free(renderer->lamp_field);
         clouds_free(renderer->clouds);
         free(renderer->rain);
         lights_free(renderer->lights);
@@ -177,6 +200,7 @@ static void fill_tracer(Tracer *tracer, const Renderer *renderer)
     tracer->accel = renderer->accel;
     tracer->lights = renderer->lights;
     tracer->clouds = renderer->clouds;
+    tracer->lamp_field = world->render.lamp_field ? renderer->lamp_field : NULL;
     tracer->droplets = droplet_phase(CLOUD_DROPLET);
     fill_rain(&tracer->rain, renderer);
     tracer->cloud_haze = cloud_haze(&world->sky);

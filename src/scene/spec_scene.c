@@ -169,6 +169,10 @@ static const Key RENDER_KEYS[] = {
      .doc = "Leaves, blades of grass and twigs that are small in the image are traced as simpler "
             "forms of equal area, which are off by at most so much; 0 = full detail everywhere, "
             "which takes about half as long again among leaves."},
+    {KEY_OF(RenderParams, lamp_field, "lamp_field", KEY_BOOL),
+     .doc = "Light of lamps and glowing objects that clouds have scattered many times comes from a "
+            "field that photons fill before the picture; false = from paths alone, without the "
+            "field's small error and with hundreds of times the noise deep in a cloud."},
     {KEY_OF(RenderParams, noise_seed, "noise_seed", KEY_UINT64), .high = 18446744073709551615.0,
      .doc = "Seed of the noise pattern; it changes nothing else in the image."},
     {KEY_OF(RenderParams, max_seconds, "seconds", KEY_DOUBLE), .high = 1e8, .unit = "s",

@@ -542,6 +542,68 @@ static void wind_draws_fog_out(void **state)
 }
 
 // The number of heaps wider than w falls off like w^-0.9, as long as none is too wide.
+enum { MAP = 128 }; // places along a side of a storm's section
+
+// Marks what hangs together with place `start`; returns how many places.
+static int flood(bool filled[MAP * MAP], int start)
+{
+    int stack[MAP * MAP], top = 0, count = 0;
+    stack[top++] = start;
+    filled[start] = false;
+    while (top > 0) {
+        int at = stack[--top], x = at % MAP, z = at / MAP;
+        count++;
+        const int next[4] = {x > 0 ? at - 1 : -1, x + 1 < MAP ? at + 1 : -1, z > 0 ? at - MAP : -1,
+                             z + 1 < MAP ? at + MAP : -1};
+        for (int k = 0; k < 4; k++) {
+            if (next[k] >= 0 && filled[next[k]]) {
+                filled[next[k]] = false;
+                stack[top++] = next[k];
+            }
+        }
+    }
+    return count;
+}
+
+// Places of a level section that hold droplets, and how many of them the largest piece has.
+static void section(const CloudSet *clouds, const Cloud *cloud, float share, int *all, int *largest)
+{
+    bool filled[MAP * MAP];
+    float side = 8.0f * cloud->size / MAP;
+    *all = *largest = 0;
+    for (int i = 0; i < MAP * MAP; i++) {
+        Vec3 p = vec3(side * (float)(i % MAP - MAP / 2), cloud->base + share * cloud->thickness,
+                      side * (float)(i / MAP - MAP / 2));
+        filled[i] = clouds_extinction(clouds, p) > 0.1f * cloud->extinction;
+        *all += filled[i];
+    }
+    for (int i = 0; i < MAP * MAP; i++) {
+        int count = filled[i] ? flood(filled, i) : 0;
+        *largest = count > *largest ? count : *largest;
+    }
+}
+
+// One anvil, far wider than the tower that bears it; nothing above what the thickness allows.
+static void a_storm_has_one_anvil_on_one_tower(void **state)
+{
+    (void)state;
+    Cloud cloud = cloud_default(CLOUD_STORM);
+    cloud.softness = 0.2f;
+    for (int seed = 0; seed < 2; seed++) {
+        cloud.seed = seed;
+        CloudSet *clouds = grow(cloud);
+        int tower, anvil, largest;
+        section(clouds, &cloud, 0.4f, &tower, &largest);
+        assert_true(tower > 0 && largest > 0.8f * (float)tower);
+        section(clouds, &cloud, 0.83f, &anvil, &largest);
+        assert_true(largest > 0.95f * (float)anvil);
+        assert_true(anvil > 4 * tower);
+        section(clouds, &cloud, 1.1f, &anvil, &largest);
+        assert_int_equal(anvil, 0);
+        clouds_free(clouds);
+    }
+}
+
 static void small_heaps_are_many(void **state)
 {
     (void)state;
@@ -736,6 +798,7 @@ int main(void)
         cmocka_unit_test(fog_lies_on_its_floor),
         cmocka_unit_test(wind_draws_fog_out),
         cmocka_unit_test(small_heaps_are_many),
+        cmocka_unit_test(a_storm_has_one_anvil_on_one_tower),
         cmocka_unit_test(an_even_sky_hides_clouds),
         cmocka_unit_test(an_even_sky_hides_fog),
         cmocka_unit_test(fog_in_the_sun_converges_without_specks),

@@ -48,6 +48,7 @@ static bool add_towers(Puffs *p, const Heap *h, uint64_t key, Error *e)
         Column tower = {.foot = place_in(h, off * cosf(angle), off * sinf(angle), 0.0f),
                         .radius = h->width * random_range(random_key(own, 3), 0.12f, 0.22f),
                         .height = h->height * dome * lerpf(0.45f, 1.0f, young),
+                        .taper = 0.35f,
                         .lean_x = lean * h->sine,
                         .lean_z = lean * h->cosine,
                         .softness = puffs_worn(clampf(1.6f * old - 0.5f, 0.0f, 0.9f), h->frail),

@@ -41,7 +41,7 @@ static bool add_bulging(Puffs *p, Puff ball, float wear, int levels, uint64_t ke
         d = vec3_normalize(vec3(d.x, d.y + 0.4f, d.z));
         float off = ball.radius * random_range(random_key(own, 2), 0.72f, 0.95f);
         Puff child = ball;
-        child.center = vec3_madd(ball.center, off, d);
+        child.center = vec3_madd(ball.center, off, vec3(d.x, d.y / ball.flatness, d.z));
         child.radius = ball.radius * random_range(random_key(own, 1), 0.3f, 0.58f);
         child.softness = puffs_worn(ball.softness, UNDER * wear * (0.4f - d.y));
         if (child.center.y > p->floor &&
@@ -59,7 +59,7 @@ bool puffs_add_column(Puffs *p, const Column *c, uint64_t key, Error *e)
         uint64_t own = random_key(key, i);
         float share = clampf(y / fmaxf(c->height, 1.0f), 0.0f, 1.0f);
         float r =
-            c->radius * (1.0f - 0.35f * share) * random_range(random_key(own, 0), 0.8f, 1.15f);
+            c->radius * (1.0f - c->taper * share) * random_range(random_key(own, 0), 0.8f, 1.15f);
         Vec3 off = vec3_scale(random_direction(random_key(own, 1)), 0.3f * c->radius);
         Puff ball = {.center = vec3(c->foot.x + off.x + c->lean_x * y, c->foot.y + y,
                                     c->foot.z + off.z + c->lean_z * y),
@@ -76,30 +76,126 @@ bool puffs_add_column(Puffs *p, const Column *c, uint64_t key, Error *e)
 
 // ---- a storm ----
 
-// A disc of flattened balls under the tropopause, drawn out downwind and thinner there.
-static bool add_anvil(Puffs *p, const Cloud *cloud, uint64_t key, Error *e)
+// Directions of a storm: along its wind and across it.
+typedef struct StormFrame {
+    const Cloud *cloud;
+    float sine, cosine; // of the wind's azimuth
+    float top;          // m: altitude of the anvil's upper side
+} StormFrame;
+
+static StormFrame storm_frame(const Cloud *cloud)
 {
-    enum { BALLS = 220 };
-    float wind = cloud->wind * RADIANS_PER_DEGREE, sine = sinf(wind), cosine = cosf(wind);
-    float top = cloud->base + 0.88f * cloud->thickness;
+    float wind = cloud->wind * RADIANS_PER_DEGREE;
+    return (StormFrame){cloud, sinf(wind), cosf(wind), cloud->base + 0.9f * cloud->thickness};
+}
+
+// A place in shares of the storm's size downwind of its centre and beside it; y: altitude, m.
+static Vec3 storm_place(const StormFrame *f, float along, float aside, float y)
+{
+    along *= f->cloud->size;
+    aside *= f->cloud->size;
+    return vec3(f->cloud->center_x + along * f->sine + aside * f->cosine, y,
+                f->cloud->center_z + along * f->cosine - aside * f->sine);
+}
+
+// How far the anvil reaches about its middle, in shares of its mean: lobes of outflow.
+static float outflow(float angle, uint64_t key)
+{
+    float a = 2.0f * PI_F * random_unit(random_key(key, 0));
+    float b = 2.0f * PI_F * random_unit(random_key(key, 1));
+    return 1.0f + 0.12f * sinf(2.0f * angle + a) + 0.1f * sinf(5.0f * angle + b);
+}
+
+// The anvil: air that has risen to the tropopause spreads below it in one sheet, thick about the
+// tower, from which it flares, and thinner outward; drawn out downwind, where it dissolves to
+// veils, and firm as knuckles upwind.
+static bool add_anvil(Puffs *p, const StormFrame *f, uint64_t key, Error *e)
+{
+    enum { BALLS = 320 };
+    const Cloud *cloud = f->cloud;
     for (uint64_t i = 0; i < BALLS; i++) {
         uint64_t own = random_key(key, i);
         float share = sqrtf(random_unit(random_key(own, 0)));
-        float angle = random_range(random_key(own, 1), 0.0f, 2.0f * PI_F);
-        float along = cloud->size * (0.9f + 2.4f * share * cosf(angle));
-        float aside = cloud->size * 1.7f * share * sinf(angle);
-        float radius = cloud->size * random_range(random_key(own, 2), 0.22f, 0.42f);
-        float y = top + 0.02f * cloud->thickness * (random_unit(random_key(own, 3)) - 0.5f);
-        Puff disc = {.center = vec3(cloud->center_x + along * sine + aside * cosine, y,
-                                    cloud->center_z + along * cosine - aside * sine),
-                     .radius = radius * (1.1f - 0.5f * share),
-                     .flatness = 2.6f + 1.5f * share,
-                     .softness = 0.4f + 0.6f * share};
-        if (!puffs_add(p, disc, e)) {
+        float angle = random_range(random_key(own, 1), 0.0f, 2.0f * PI_F), down = cosf(angle);
+        float far = share * outflow(angle, key);
+        float radius = cloud->size * (0.44f - 0.2f * share);
+        radius *= random_range(random_key(own, 2), 0.8f, 1.15f);
+        float flatness = 1.7f + 2.0f * share + 0.8f * share * fmaxf(down, 0.0f);
+        float y = f->top - 0.95f * radius / flatness;
+        y -= 0.03f * cloud->thickness * random_unit(random_key(own, 3)) * (1.0f - share);
+        float soft = 0.15f * share + 0.7f * share * fmaxf(0.25f + 0.75f * down, 0.0f);
+        Puff ball = {.center =
+                         storm_place(f, 0.65f + 1.85f * far * down, 1.45f * far * sinf(angle), y),
+                     .radius = radius,
+                     .flatness = flatness,
+                     .softness = puffs_worn(0.05f, soft)};
+        int bulges = down < 0.4f || share < 0.5f ? 2 : 0;
+        if (!add_bulging(p, ball, cloud->softness, bulges, random_key(own, 4), e)) {
             return false;
         }
     }
     return true;
+}
+
+// What shoots over into the stratosphere above the strongest updraft.
+static bool add_dome(Puffs *p, const StormFrame *f, uint64_t key, Error *e)
+{
+    enum { BALLS = 5 };
+    const Cloud *cloud = f->cloud;
+    for (uint64_t i = 0; i < BALLS; i++) {
+        uint64_t own = random_key(key, i);
+        float along = random_range(random_key(own, 0), -0.16f, 0.2f);
+        float aside = random_range(random_key(own, 1), -0.2f, 0.2f);
+        float radius = cloud->size * random_range(random_key(own, 2), 0.14f, 0.24f);
+        Puff ball = {.center = storm_place(f, along, aside, f->top - 0.25f * radius),
+                     .radius = radius,
+                     .flatness = 1.3f};
+        if (!add_bulging(p, ball, 0.5f * cloud->softness, FLANK_LEVELS, random_key(own, 3), e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// A tower of the storm whose foot lies there; shares of the storm's size and thickness.
+static bool add_tower(Puffs *p, const StormFrame *f, Vec3 foot, float radius, float height,
+                      uint64_t key, Error *e)
+{
+    const Cloud *cloud = f->cloud;
+    Column tower = {.foot = foot,
+                    .radius = cloud->size * radius,
+                    .height = cloud->thickness * height,
+                    .taper = height > 0.79f ? 0.05f : 0.3f,
+                    .wear = cloud->softness};
+    return puffs_add_column(p, &tower, key, e);
+}
+
+// The main tower with turrets of all heights about it, and the flanking line: ever younger towers
+// in steps down to the upwind side.
+static bool add_towers(Puffs *p, const StormFrame *f, uint64_t key, Error *e)
+{
+    enum { TURRETS = 11, STEPS = 7 };
+    float base = f->cloud->base;
+    bool done =
+        add_tower(p, f, storm_place(f, 0.0f, 0.0f, base), 0.38f, 0.8f, random_key(key, 0), e);
+    for (uint64_t i = 0; done && i < TURRETS; i++) {
+        uint64_t own = random_key(key, 1 + i);
+        float angle = 2.0f * PI_F * ((float)i + random_unit(random_key(own, 0))) / TURRETS;
+        float off = random_range(random_key(own, 1), 0.3f, 0.52f);
+        float height = random_range(random_key(own, 2), 0.3f, 0.78f);
+        done = add_tower(p, f, storm_place(f, off * cosf(angle), off * sinf(angle), base),
+                         random_range(random_key(own, 3), 0.17f, 0.27f), height, random_key(own, 4),
+                         e);
+    }
+    for (uint64_t i = 0; done && i < STEPS; i++) {
+        uint64_t own = random_key(key, 100 + i);
+        float step = ((float)i + random_unit(random_key(own, 0))) / STEPS;
+        float off = 0.5f + 1.3f * step;
+        float aside = 0.45f * off + random_range(random_key(own, 1), -0.1f, 0.1f);
+        done = add_tower(p, f, storm_place(f, -off, aside, base), 0.22f - 0.12f * step,
+                         0.6f - 0.48f * step, random_key(own, 2), e);
+    }
+    return done;
 }
 
 // Cold air that runs out below the storm lifts the air ahead of it: tiers of flat balls in an arc
@@ -132,23 +228,10 @@ static bool add_shelf(Puffs *p, const Cloud *cloud, uint64_t key, Error *e)
 
 bool puffs_grow_storm(Puffs *p, const Cloud *cloud, uint64_t key, Error *e)
 {
-    enum { TOWERS = 9 };
-    for (uint64_t i = 0; i < TOWERS; i++) {
-        uint64_t own = random_key(key, i);
-        float share = (float)i / TOWERS; // the main tower first, the flanking line after it
-        float angle = random_range(random_key(own, 0), 0.0f, 2.0f * PI_F);
-        float off = cloud->size * (0.1f + 0.75f * share);
-        Column tower = {.foot = vec3(cloud->center_x + off * sinf(angle), cloud->base,
-                                     cloud->center_z + off * cosf(angle)),
-                        .radius = cloud->size * (0.34f - 0.17f * share),
-                        .height = cloud->thickness * (0.95f - 0.75f * share),
-                        .wear = cloud->softness};
-        if (!puffs_add_column(p, &tower, random_key(own, 1), e)) {
-            return false;
-        }
-    }
-    return add_anvil(p, cloud, random_key(key, TOWERS), e) &&
-           (cloud->shelf == 0.0f || add_shelf(p, cloud, random_key(key, TOWERS + 1), e));
+    StormFrame f = storm_frame(cloud);
+    return add_towers(p, &f, random_key(key, 0), e) && add_anvil(p, &f, random_key(key, 1), e) &&
+           add_dome(p, &f, random_key(key, 2), e) &&
+           (cloud->shelf == 0.0f || add_shelf(p, cloud, random_key(key, 3), e));
 }
 
 void puffs_clear(Puffs *puffs)

@@ -28,6 +28,7 @@ typedef struct Puffs {
 typedef struct Column {
     Vec3 foot;
     float radius, height; // m
+    float taper;          // share by which it is narrower at its top
     float lean_x, lean_z; // m downwind a metre of height
     float softness;       // of its age
     float wear;           // how much softer dry air makes its foot and its flanks
@@ -38,7 +39,7 @@ bool puffs_add(Puffs *puffs, Puff puff, Error *e);
 // A softness that dry air has raised by a share 0..1 of what is left, or lowered by -share.
 float puffs_worn(float softness, float share);
 
-// Balls up a column, narrower toward its top.
+// Balls up a column.
 bool puffs_add_column(Puffs *puffs, const Column *column, uint64_t key, Error *e);
 
 // Adds one storm about (center_x, center_z): towers up to the anvil, which the wind draws out.

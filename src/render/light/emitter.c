@@ -354,6 +354,52 @@ float emitter_pdf(const Emitter *emitter, Vec3 from, Vec3 position)
     return cap_pdf(emitter, from, position, &normal);
 }
 
+static EmissionSpot cone_emit(const Emitter *e, const float u[2])
+{
+    Cone cone = cone_of(e);
+    Vec3 beside = fabsf(cone.axis.y) < 0.9f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
+    Vec3 across = vec3_normalize(vec3_cross(cone.axis, beside));
+    Vec3 aside = vec3_cross(cone.axis, across);
+    float sine, cosine, radius = lerpf(e->radius0, e->radius1, u[0]);
+    sincos_turn(u[1], &sine, &cosine);
+    Vec3 out = vec3_madd(vec3_scale(across, cosine), sine, aside);
+    return (EmissionSpot){
+        .position = vec3_madd(vec3_madd(e->a, u[0], e->b), radius, out),
+        .normal = vec3_madd(vec3_scale(out, cone.cosine), e->tilt, cone.axis),
+        .extent = cone.length,
+        .glow = lerpf(e->glow0, e->glow1, u[0]),
+        .area = cone.length > 0.0f ? 2.0f * PI_F * radius * cone.slant : 0.0f,
+    };
+}
+
+static EmissionSpot triangle_emit(const Emitter *e, const float u[2], float side)
+{
+    Vec3 across = vec3_cross(e->b, e->c), normal = vec3_normalize(across);
+    float sides = e->two_sided ? 2.0f : 1.0f;
+    return (EmissionSpot){
+        .position = triangle_point(e, u),
+        .normal = e->two_sided && side < 0.5f ? vec3_neg(normal) : normal,
+        .extent = vec3_length(e->b) + vec3_length(e->c),
+        .glow = 1.0f,
+        .area = sides * 0.5f * vec3_length(across),
+    };
+}
+
+EmissionSpot emitter_emit(const Emitter *emitter, const float u[2], float side)
+{
+    switch (emitter->kind) {
+    case EMITTER_TRIANGLE:
+        return triangle_emit(emitter, u, side);
+    case EMITTER_CONE:
+        return cone_emit(emitter, u);
+    case EMITTER_CAP:
+        break;
+    }
+    Vec3 place = cap_point(emitter, u);
+    return (EmissionSpot){place, vec3_normalize(vec3_sub(place, emitter->a)), emitter->radius0,
+                          emitter->glow0, 2.0f * PI_F * emitter->radius0 * emitter->radius0};
+}
+
 static LightBounds triangle_bounds(const Emitter *e, float luminance)
 {
     Vec3 across = vec3_cross(e->b, e->c);

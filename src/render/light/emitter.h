@@ -64,4 +64,15 @@ bool emitter_sample_pivoted(const Emitter *emitter, Vec3 from, const float u[2],
 // emitter from its front; 0 for a segment without a side, which is never drawn.
 float emitter_pdf(const Emitter *emitter, Vec3 from, Vec3 position);
 
+// A place on the emitter from which light leaves, drawn without regard to who sees it.
+typedef struct EmissionSpot {
+    Vec3 position, normal; // unit, of the side from which it leaves
+    float extent;          // m, of the emitter
+    float glow;            // factor on the material's radiance
+    float area;            // m^2: 1 / density of the place, both sides of a sheet counted
+} EmissionSpot;
+
+// side: uniform; chooses the side of a sheet.
+EmissionSpot emitter_emit(const Emitter *emitter, const float u[2], float side);
+
 #endif

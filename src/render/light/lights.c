@@ -155,6 +155,54 @@ bool lights_sample(const Lights *lights, const LightReceiver *receiver, const fl
     return seen && sample->pdf > 0.0f;
 }
 
+// The stretch of the cumulated shares that dome and sun have, which follow each other in the list.
+static void stretch_above(const Lights *lights, float *low, float *high)
+{
+    int end = lights->emitters_index >= 0 ? lights->emitters_index : lights->count;
+    *low = lights->sum[lights->world->light_count];
+    *high = lights->sum[end];
+}
+
+float lights_mix(const Lights *lights, float near, bool is_near)
+{
+    float low, high;
+    stretch_above(lights, &low, &high);
+    float above = high - low;
+    if (near < 0.0f || !(above > 0.0f) || !(above < 1.0f)) {
+        return 1.0f;
+    }
+    return is_near ? near / (1.0f - above) : (1.0f - near) / above;
+}
+
+bool lights_sample_mixed(const Lights *lights, const LightReceiver *receiver, float near,
+                         const float u[3], LightSample *sample)
+{
+    float low, high;
+    stretch_above(lights, &low, &high);
+    float above = high - low;
+    if (near < 0.0f || !(above > 0.0f) || !(above < 1.0f)) {
+        return lights_sample(lights, receiver, u, sample);
+    }
+    float x;
+    if (u[2] < near) {
+        x = u[2] / near * (1.0f - above);
+        x += x < low ? 0.0f : above;
+    } else {
+        x = low + (u[2] - near) / (1.0f - near) * above;
+    }
+    const float v[3] = {u[0], u[1], fminf(x, 0.99999994f)};
+    bool seen = lights_sample(lights, receiver, v, sample);
+    sample->pdf *= lights_mix(lights, near, u[2] < near);
+    return seen && sample->pdf > 0.0f;
+}
+
+float lights_mean_above(const Lights *lights)
+{
+    float sky = lights->dome ? lights->dome->power : 4.0f * PI_F * luminance(lights->constant);
+    float sun = luminance(lights->sun.radiance) * lights->sun.solid_angle;
+    return (sky + sun) / (4.0f * PI_F);
+}
+
 // ---- along a segment
 
 bool lights_draw_pivot(const Lights *lights, const LightChoice *choice, const LightSegment *segment,

@@ -36,6 +36,20 @@ bool lights_can_sample(const Lights *lights);
 bool lights_sample(const Lights *lights, const LightReceiver *receiver, const float u[3],
                    LightSample *sample);
 
+// The same with a chance `near` of 0 .. 1 that a lamp or glowing geometry is chosen, and not sky or
+// sun, where the receiver's place tells more than the powers do. NEAR_BY_POWER: lights_sample.
+#define NEAR_BY_POWER (-1.0f)
+bool lights_sample_mixed(const Lights *lights, const LightReceiver *receiver, float near,
+                         const float u[3], LightSample *sample);
+
+// How many times as often lights_sample_mixed chooses what is near (or sky and sun) as
+// lights_sample: the density with which a direction was drawn, over this factor, has the weight
+// against light sampling that it must have.
+float lights_mix(const Lights *lights, float near, bool is_near);
+
+// Mean luminance of sky and sun over all directions.
+float lights_mean_above(const Lights *lights);
+
 // ---- light that a medium scatters along a stretch of a ray
 
 // A light chosen with a uniform number. near: it can also be sampled from a pivot.
