@@ -160,7 +160,7 @@ static void without_ice_valleys_are_v_shaped(void **state)
     MeasureList list = {0};
     height_field_free(heights(1, 2, 0.0f, 0.0f, &list));
     double exponent = measured(&list, "valley_exponent");
-    if (!(exponent > 0.9 && exponent < 1.4)) {
+    if (!(exponent > 0.9 && exponent < 1.5)) { // debris fills their floors a little
         fail_msg("valleys have an exponent of %g", exponent);
     }
     measures_clear(&list);

@@ -1,7 +1,9 @@
-// Debris flows and rockfall (land/landscape.h): what they scour is kept, comes to rest at its angle,
-// and leaves couloirs between ribs.
+// Debris flows and rockfall (land/landscape.h): what they scour is kept, comes to rest at its
+// angle, and leaves couloirs between ribs.
 #include "base/random.h"
 #include "land/landscape.h"
+#include "making_terrain.h"
+#include "objects/terrain/terrain.h"
 #include "testing.h"
 
 #include <math.h>
@@ -136,6 +138,46 @@ static void couloirs_part_a_wall_into_ribs(void **state)
     landscape_free(still);
 }
 
+// Ridges of noise, steep enough for couloirs, carved by `debris`.
+static HeightField *carved(int resolution, float debris)
+{
+    TerrainParams params = terrain_params_default();
+    params.form = TERRAIN_NOISE;
+    params.size = 6000.0f;
+    params.resolution = resolution;
+    params.noise.amplitude = 0.45f;
+    params.noise.wavelength = 0.4f;
+    params.noise.iterations = 3;
+    params.erosion.debris = debris;
+    return make_heights(&params, 4, 2, NULL, NULL);
+}
+
+// erosion.debris: the same couloirs at twice the resolution, where samples coincide.
+static void more_resolution_shows_the_same_couloirs(void **state)
+{
+    (void)state;
+    HeightField *coarse = carved(256, 1.0f), *fine = carved(512, 1.0f);
+    HeightField *coarse_before = carved(256, 0.0f), *fine_before = carved(512, 0.0f);
+    double both = 0.0, first = 0.0, second = 0.0;
+    for (int64_t i = 0; i < height_field_count(coarse); i++) {
+        int64_t k = 2 * (i / 257) * 513 + 2 * (i % 257);
+        double a = (double)(coarse->height[i] - coarse_before->height[i]);
+        double b = (double)(fine->height[k] - fine_before->height[k]);
+        both += a * b;
+        first += a * a;
+        second += b * b;
+    }
+    double alike = both / sqrt(first * second);
+    double depth = sqrt(second / (double)height_field_count(coarse));
+    if (!(depth > 3.0 && alike > 0.9)) {
+        fail_msg("changes of %g m, alike by %g", depth, alike);
+    }
+    height_field_free(coarse);
+    height_field_free(fine);
+    height_field_free(coarse_before);
+    height_field_free(fine_before);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -143,6 +185,7 @@ int main(void)
         cmocka_unit_test(ground_below_the_angle_is_not_scoured),
         cmocka_unit_test(scree_lies_at_its_angle),
         cmocka_unit_test(couloirs_part_a_wall_into_ribs),
+        cmocka_unit_test(more_resolution_shows_the_same_couloirs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -257,6 +257,7 @@ float terrain_shore(const Terrain *terrain, float x, float z);
 bool terrain_erode(HeightField *field, const TerrainErosionParams *params, const Run *run,
                    Error *e);
 
+enum { WALLS_COARSE_CELLS = 512, WALLS_FINE_CELLS = 1024 }; // a side
 // walls.c: couloirs and scree by erosion.debris; also what is loose then, to field->wetness.
 bool terrain_carve_walls(const Terrain *terrain, HeightField *field, const Run *run, Error *e);
 

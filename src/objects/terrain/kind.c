@@ -75,6 +75,10 @@ static void needs(const void *params, Needs *needs)
                                      : terrain->form == TERRAIN_KARST ? KARST_BYTES
                                                                       : 0));
     }
+    if (terrain->erosion.debris > 0.0f) {
+        needs_add(needs, "erosion.debris", 1.25 * WALLS_FINE_CELLS * WALLS_FINE_CELLS,
+                  LANDSCAPE_BYTES);
+    }
     if (terrain->form == TERRAIN_DUNES) {
         double cells = fmin(terrain->resolution, terrain->evolution.cells);
         needs_add(needs, "evolution.cells", cells * cells, DUNE_BYTES);

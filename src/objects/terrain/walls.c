@@ -9,8 +9,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { COARSE_CELLS = 512, FINE_CELLS = 1024 };
-
 typedef struct Walls {
     const Terrain *terrain;
     const HeightField *field;
@@ -118,7 +116,7 @@ static void subtract(const Walls *w, Landscape *land)
 // The fine land, after the changes of the coarse one, whose rock they are.
 static Landscape *walls_after(const Walls *w, const Landscape *coarse, Error *e)
 {
-    Landscape *land = walls_on(w, FINE_CELLS, e);
+    Landscape *land = walls_on(w, WALLS_FINE_CELLS, e);
     for (int64_t i = 0; land && i < landscape_count(land); i++) {
         int64_t row = i / land->side;
         double x = land->corner + (double)(i % land->side) * land->cell, loose;
@@ -171,7 +169,7 @@ bool terrain_carve_walls(const Terrain *terrain, HeightField *field, const Run *
                .repose = 0.69,
                .water =
                    params->water_level > 0.0f ? terrain_water_height(params, field) : -INFINITY};
-    Landscape *coarse = walls_on(&w, COARSE_CELLS, e), *fine = NULL;
+    Landscape *coarse = walls_on(&w, WALLS_COARSE_CELLS, e), *fine = NULL;
     bool done = coarse && carve(&w, coarse, strength, 1.0, run, e);
     if (done) {
         subtract(&w, coarse);

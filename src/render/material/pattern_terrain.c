@@ -50,8 +50,9 @@ typedef struct Face {
     Crags crags;
 } Face;
 
-// size: m, of the largest blocks.
-static Face rock(const Material *m, const SurfacePoint *point, Vec3 color, float size, float thick)
+// size: m, of the largest blocks; dark: how dark crevices are.
+static Face rock(const Material *m, const SurfacePoint *point, Vec3 color, float size, float thick,
+                 float dark)
 {
     CragsRock face = face_of(point, size, thick);
     Face f = {.crags = pattern_crags(point, &face)};
@@ -64,7 +65,7 @@ static Face rock(const Material *m, const SurfacePoint *point, Vec3 color, float
     float tone = 0.5f + 0.9f * laminae + 0.22f * crags->tone + 0.12f * grain.value;
     f.ground.color = vec3_lerp(color, m->color2, clampf(tone, 0.0f, 1.0f));
     float light = (1.0f + 0.16f * crags->tone + 0.12f * clampf(grain.value, -1.2f, 1.2f)) *
-                  (1.0f - 0.5f * crags->crevice);
+                  (1.0f - dark * crags->crevice);
     f.ground.color = vec3_scale(f.ground.color, clampf(light, 0.2f, 1.6f));
     f.ground.slope = vec3_madd(vec3_scale(crags->slope, 0.9f), 0.012f * size, grain.slope);
     return f;
@@ -147,7 +148,7 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
     PatternOctaves broad = pattern_octaves(point, 4.0f * scale, 4, 0.55f, 1.0f, 41);
     PatternOctaves fray = pattern_octaves(point, 0.4f * scale, 6, 0.6f, 1.0f, 45);
     float ragged = 0.45f * broad.value + 0.55f * fray.value;
-    Face face = rock(m, point, shade->color, pattern_mountain_blocks(m), MOUNTAIN_BEDS);
+    Face face = rock(m, point, shade->color, pattern_mountain_blocks(m), MOUNTAIN_BEDS, 0.7f);
     Ground g = face.ground;
     stain(point, 0.1f * scale, upright, &g.color);
     upright += 0.3f * face.crags.ledge;
@@ -206,7 +207,7 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
     PatternOctaves chutes = pattern_octaves(point, 0.9f * scale, 6, 0.6f, 0.22f, 177);
     float ragged = 0.4f * broad.value + 0.6f * fray.value;
     Face face = rock(m, point, vec3_scale(shade->color, 1.0f + 0.25f * broad.value),
-                     pattern_alps_blocks(m), ALPS_BEDS);
+                     pattern_alps_blocks(m), ALPS_BEDS, 0.5f);
     Ground g = face.ground;
     stain(point, 0.3f * scale, upright, &g.color);
     // Water and dust darken faces along the chutes.
