@@ -66,7 +66,7 @@ static float veins(Vec2 uv, float count, float blur)
 // leaf.
 static float dead_spot(Vec2 uv, float seed, float blur)
 {
-    const float share = 0.06f; // of the cells that have one
+    const float share = 0.02f; // of the cells that have one
     if (blur > 0.02f) {
         return 0.0f;
     }
