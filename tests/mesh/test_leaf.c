@@ -235,6 +235,11 @@ static void an_edge_has_as_many_teeth_as_asked_for(void **state)
     assert_in_range(count_teeth(mesh, 7, -1), 12, 14);
     assert_int_equal(count_teeth(mesh, 7, -1), count_teeth(mesh, 7, 1));
     mesh_free(mesh);
+    form.detail = 3; // from near the edge bends between its teeth, too
+    mesh = leaf_mesh_new(&form, 5, NULL);
+    assert_in_range(count_teeth(mesh, 15, 1), 12, 14);
+    assert_int_equal(mesh->vertex_count, 15 * (14 * 6 + 1));
+    mesh_free(mesh);
 }
 
 // Leaflets that are components of the mesh: 11, and stalk and rachis.

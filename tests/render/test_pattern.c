@@ -300,16 +300,50 @@ static void test_leaf_veins(void **state)
                       .uv = {0.5f, 0.4f},
                       .footprint = 1e-5f};
     PatternShade midrib = shade_of(&m, &p);
-    double blade = 0.0, through = 0.0;
+    double blade = 0.0, through = 0.0, red = 0.0;
     for (int i = 0; i < 1000; i++) {
         p.uv = (Vec2){random_unit(random_key(1, (uint64_t)i)),
                       random_unit(random_key(2, (uint64_t)i))};
         PatternShade s = shade_of(&m, &p);
         blade += (double)s.color.y / 1000.0;
         through += (double)s.transmittance.y / 1000.0;
+        red += (double)s.transmittance.x / 1000.0;
     }
     assert_true((double)midrib.color.y > 1.15 * blade);
-    assert_true((double)midrib.transmittance.y < 0.8 * through);
+    // against the light dark, and yellower
+    assert_true((double)midrib.transmittance.y < 0.55 * through);
+    assert_true((double)midrib.transmittance.x / (double)midrib.transmittance.y >
+                1.1 * red / through);
+}
+
+// Dead spots are brown, and take up little of some leaves.
+static void test_leaf_spots(void **state)
+{
+    (void)state;
+    enum { LEAVES = 40, POINTS = 500 };
+    Material m = material_default(MATERIAL_LEAF);
+    m.pattern = PATTERN_LEAF;
+    SurfacePoint p = {.normal = vec3(0, 0, 1),
+                      .geometric_normal = vec3(0, 0, 1),
+                      .tangent_u = vec3(0.06f, 0, 0),
+                      .tangent_v = vec3(0, 0.1f, 0),
+                      .footprint = 1e-5f};
+    int brown = 0, whole = 0;
+    for (uint64_t leaf = 0; leaf < LEAVES; leaf++) {
+        p.variation = random_unit(random_key(5, leaf));
+        int before = brown;
+        for (uint64_t i = 0; i < POINTS; i++) {
+            uint64_t key = random_key(leaf, i);
+            p.uv = (Vec2){random_unit(random_key(key, 1)), random_unit(random_key(key, 2))};
+            Vec3 c = shade_of(&m, &p).color;
+            brown += c.x > c.y;
+        }
+        whole += brown == before;
+    }
+    double share = (double)brown / (LEAVES * POINTS);
+    if (share < 0.0005 || share > 0.02 || whole < LEAVES / 5 || whole > LEAVES * 4 / 5) {
+        fail_msg("%g of the blades are brown, %d of %d leaves are whole", share, whole, LEAVES);
+    }
 }
 
 // Light that passes a blotch takes on the second colour too; over many blades the mean is that of a
@@ -519,6 +553,7 @@ int main(void)
         cmocka_unit_test(test_bark_without_branch),
         cmocka_unit_test(test_ground),
         cmocka_unit_test(test_leaf_veins),
+        cmocka_unit_test(test_leaf_spots),
         cmocka_unit_test(test_leaf_blotches_tint_light_that_passes),
         cmocka_unit_test(test_variation),
         cmocka_unit_test(test_stone),

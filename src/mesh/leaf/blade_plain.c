@@ -84,22 +84,26 @@ float blade_tooth(const LeafParams *params, float s)
 
 int blade_rows(const LeafParams *params, int plain_rows, float *s, int most)
 {
-    int each = params->double_teeth ? 6 : 2;
+    bool close = params->detail > 2 && !params->double_teeth;
+    int each = params->double_teeth || close ? 6 : 2;
     int rows = params->teeth * each + 1;
     // Notches at 0, points at 0.72 of every tooth; the small teeth likewise.
     static const float at_one[2] = {0.0f, 0.72f};
+    static const float at_close[6] = {0.0f, 0.25f, 0.5f, 0.72f, 0.81f, 0.91f};
     static const float at_three[6] = {0.0f, 0.24f, 0.333333f, 0.573333f, 0.72f, 0.906667f};
     if (params->teeth == 0 || rows > most) {
-        bool close = params->detail > 2; // rows lie closer at the ends, where the outline bends
         for (int r = 0; r < plain_rows; r++) {
             float t = (float)r / (float)(plain_rows - 1);
-            s[r] = close ? t * t * (3.0f - 2.0f * t) : t;
+            // seen from near, rows lie closer at the ends, where the outline bends
+            s[r] = params->detail > 2 ? t * t * (3.0f - 2.0f * t) : t;
         }
         return plain_rows;
     }
     for (int r = 0; r + 1 < rows; r++) {
         int tooth = r / each;
-        float within = params->double_teeth ? at_three[r % each] : at_one[r % each];
+        float within = params->double_teeth ? at_three[r % each]
+                       : close              ? at_close[r % each]
+                                            : at_one[r % each];
         s[r] = ((float)tooth + within) / (float)params->teeth;
     }
     s[rows - 1] = 1.0f;

@@ -43,7 +43,7 @@ static float veinlets(float run, float side, float count, float blur)
     Vec3 at = vec3(meshes * run, meshes * width * count * side, 0.5f);
     float border = noise_cells(at, 53).border;
     float second = line(border / (meshes * count), 0.0022f, blur);
-    return seen * fmaxf(0.55f * first, 0.5f * second);
+    return seen * fmaxf(0.6f * first, 0.5f * second);
 }
 
 // Coverage of uv by a vein; count: side veins on each half.
@@ -58,8 +58,22 @@ static float veins(Vec2 uv, float count, float blur)
     float run = ((uv.y - 0.9f * side + 0.5f * side * side) * count) + left;
     float phase = run - floorf(run);
     float across = fabsf(phase - 0.5f) / count;
-    float vein = line(across, lerpf(0.011f, 0.003f, clampf(2.2f * side, 0.0f, 1.0f)), blur);
-    return fmaxf(fmaxf(midrib, 0.75f * vein), veinlets(run, side, count, blur));
+    float vein = line(across, lerpf(0.012f, 0.004f, clampf(2.2f * side, 0.0f, 1.0f)), blur);
+    return fmaxf(fmaxf(midrib, 0.85f * vein), veinlets(run, side, count, blur));
+}
+
+// Dead spots that insects and fungi leave: 1 inside, in a few places of some leaves. seed: of the
+// leaf.
+static float dead_spot(Vec2 uv, float seed, float blur)
+{
+    const float share = 0.02f; // of the cells that have one
+    if (blur > 0.02f) {
+        return 0.0f;
+    }
+    CellPoint c = noise_cells(vec3(6.0f * uv.x, 10.0f * uv.y, 1.7f * seed), 59);
+    float pick = noise_unit(c.cell, 61), radius = lerpf(0.1f, 0.34f, pick / share);
+    float away = sqrtf(c.point.x * c.point.x + c.point.y * c.point.y);
+    return pick < share ? 1.0f - smoothstepf(0.75f * radius, radius, away) : 0.0f;
 }
 
 // Per channel: the factor of a blotch of this strength (0..1) on transmitted light, with mean about
@@ -83,15 +97,23 @@ void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *sh
     float spot = smoothstepf(0.25f, 0.75f, blotch);
     Vec3 blade =
         vec3_lerp(vec3_scale(shade->color, 1.0f + 0.22f * blotch), m->color2, blotch_share * spot);
-    Vec3 pale = vec3(1.5f * shade->color.x + 0.03f, 1.35f * shade->color.y + 0.03f,
-                     1.4f * shade->color.z + 0.015f);
-    shade->color = vec3_lerp(blade, pale, 0.7f * vein);
-    // Veins are thick and transmit less; blotches thin or thicken the blade.
-    float clear = (1.0f - 0.7f * vein) * (1.0f + 0.25f * blotch);
+    // Seen from above, veins are little paler than the blade; against the light they are dark,
+    // since they are thick, and yellower, since they hold less chlorophyll.
+    Vec3 pale = vec3(1.3f * shade->color.x + 0.015f, 1.2f * shade->color.y + 0.015f,
+                     1.2f * shade->color.z + 0.008f);
+    shade->color = vec3_lerp(blade, pale, 0.8f * vein);
+    float clear = 1.0f + 0.25f * blotch; // blotches thin or thicken the blade
+    shade->transmittance = vec3_mul(
+        shade->transmittance,
+        vec3_scale(vec3(1.0f - 0.72f * vein, 1.0f - 0.82f * vein, 1.0f - 0.7f * vein), clear));
     Vec3 filter =
         vec3(blotch_filter(own.x, m->color2.x, spot), blotch_filter(own.y, m->color2.y, spot),
              blotch_filter(own.z, m->color2.z, spot));
-    shade->transmittance = vec3_mul(shade->transmittance, vec3_scale(filter, clear));
+    shade->transmittance = vec3_mul(shade->transmittance, filter);
+    float dead = dead_spot(point->uv, seed, blur);
+    shade->color = vec3_lerp(shade->color, vec3(0.13f, 0.078f, 0.035f), dead);
+    shade->transmittance = vec3_mul(
+        shade->transmittance, vec3(1.0f - 0.45f * dead, 1.0f - 0.8f * dead, 1.0f - 0.7f * dead));
     if (m->pattern_depth > 0.0f && blur < 0.05f && length > 0.0f) {
         const float h = 0.004f;
         float du = veins((Vec2){point->uv.x + h, point->uv.y}, m->veins, blur) - vein;

@@ -79,12 +79,15 @@ static float relief_at(const Material *m, const SurfacePoint *point, Vec3 p)
 {
     float scale = scale_of(m), seen = pattern_detail(scale, point->footprint);
     Block block = block_at(p, surface_smooth_normal(point), scale);
-    float edge = clampf(1.0f - block.border / (0.3f * scale), 0.0f, 1.0f);
-    float rough = noise_fractal(vec3_scale(p, 6.0f / scale), 4, SEED_ROUGH);
-    float face =
-        0.35f + 0.4f * (noise_unit(block.hash, 33) - 0.5f) - 0.35f * edge * edge + 0.17f * rough;
+    // Flat faces, dressed by the pick, with worn edges; mortar that the weather has washed out a
+    // little.
+    float edge = clampf(1.0f - block.border / (0.14f * scale), 0.0f, 1.0f);
+    float rough = noise_fractal(vec3_scale(p, 6.0f / scale), 5, SEED_ROUGH);
+    float worn = noise_solid(vec3_scale(p, 3.0f / scale), SEED_ROUGH + 1, NULL);
+    float face = 0.3f + 0.35f * (noise_unit(block.hash, 33) - 0.5f) -
+                 (0.3f + 0.2f * worn) * edge * edge + 0.22f * rough;
     return m->pattern_depth * seen *
-           lerpf(-0.5f + 0.08f * rough, face, stone_share(block.border, scale));
+           lerpf(-0.42f + 0.2f * rough, face, stone_share(block.border, scale));
 }
 
 static Overgrowth moss_of(const Material *m, const SurfacePoint *point, float mortar)
