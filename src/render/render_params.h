@@ -19,7 +19,8 @@ typedef struct RenderParams {
                      // off
     float detail;    // pixels: how far off the coarse forms of leaves, blades and twigs may be; 0 =
                      // full detail everywhere
-    bool lamp_field;     // light of lamps in clouds from a field of photons; else by paths alone
+    bool lamp_field; // light of lamps in clouds from a field of photons, as the renderer was
+                     // built; else by paths alone
     double max_seconds; // 0 = no limit
 } RenderParams;
 

@@ -81,6 +81,9 @@ static bool build_lamp_field(Renderer *renderer, const Run *run, Error *e)
 {
     lamp_field_free(renderer->lamp_field);
     renderer->lamp_field = NULL;
+    if (!renderer->world->render.lamp_field) {
+        return true;
+    }
     Tracer *tracer = memory_alloc_zero(1, sizeof *tracer, e);
     if (!tracer) {
         return false;
@@ -200,7 +203,7 @@ static void fill_tracer(Tracer *tracer, const Renderer *renderer)
     tracer->accel = renderer->accel;
     tracer->lights = renderer->lights;
     tracer->clouds = renderer->clouds;
-    tracer->lamp_field = world->render.lamp_field ? renderer->lamp_field : NULL;
+    tracer->lamp_field = renderer->lamp_field;
     tracer->droplets = droplet_phase(CLOUD_DROPLET);
     fill_rain(&tracer->rain, renderer);
     tracer->cloud_haze = cloud_haze(&world->sky);

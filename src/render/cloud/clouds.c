@@ -203,12 +203,20 @@ float clouds_seen(const CloudSet *clouds, const CloudRay *ray, float *distance)
     return 1.0f - left;
 }
 
+// m: over which light in a cloud is even, since droplets scatter it forward: half the way on which
+// it forgets its direction, 1 / (0.14 extinction). Forms that are smaller do not show.
+static float slope_step(const CloudGrid *g)
+{
+    float blur = 0.5f / (0.14f * fmaxf(g->extinction, 1e-9f));
+    return clampf(blur, 0.5f * g->voxel, 2.0f * g->voxel);
+}
+
 Vec3 clouds_slope(const CloudSet *clouds, Vec3 p)
 {
     Vec3 sum = vec3_splat(0.0f);
     for (int i = 0; i < clouds->count; i++) {
         const CloudGrid *g = &clouds->grid[i];
-        float h = 0.5f * g->voxel;
+        float h = slope_step(g);
         Vec3 x = vec3(h, 0, 0), y = vec3(0, h, 0), z = vec3(0, 0, h);
         Vec3 change =
             vec3(cloud_grid_smooth(g, vec3_add(p, x)) - cloud_grid_smooth(g, vec3_sub(p, x)),

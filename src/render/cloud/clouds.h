@@ -47,7 +47,8 @@ void clouds_samples_of(const CloudSet *clouds, int index, Aabb *box, float *dist
 // distance at which it does, m.
 float clouds_seen(const CloudSet *clouds, const CloudRay *ray, float *distance);
 
-// Gradient of the extinction without wisps, over that of a soft border.
+// Gradient of the extinction without wisps, over that of a soft border; forms that are smaller than
+// light shows are left out.
 Vec3 clouds_slope(const CloudSet *clouds, Vec3 p);
 
 #endif
