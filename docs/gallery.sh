@@ -315,6 +315,7 @@ still valley-fog valley-fog
 still braided braided
 still dunes dunes
 still rainbow rainbow
+still storm storm
 still sea sea
 still snow-crystal snow-crystal
 movie oak-year oak-year 120 null ""

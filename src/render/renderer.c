@@ -133,6 +133,9 @@ bool renderer_update(Renderer *renderer, unsigned changed, const Run *run, Error
         return false;
     }
     unsigned lit = changed & (RENDERER_CLOUDS | RENDERER_LAMPS | RENDERER_MATERIALS);
+    if ((world->medium.kind == MEDIUM_NONE) == !renderer->lamp_field) { // a medium came or went
+        lit |= changed & RENDERER_LIGHT;
+    }
     changed &= ~(unsigned)RENDERER_CLOUDS;
     if (changed == RENDERER_SKY_TURNED && !lights_water(renderer->lights)) {
         lights_turn_sky(renderer->lights);
