@@ -16,8 +16,12 @@ World world_default(void)
                               .filter = FILTER_BLACKMAN_HARRIS,
                               .filter_radius = 1.5f,
                               .crop = {0.0f, 0.0f, 1.0f, 1.0f}};
-    world.render = (RenderParams){
-        .samples = 64, .max_depth = 8, .roulette_depth = 1, .seed = 1, .detail = 0.3f, .lamp_field = true};
+    world.render = (RenderParams){.samples = 64,
+                                  .max_depth = 8,
+                                  .roulette_depth = 1,
+                                  .seed = 1,
+                                  .detail = 0.3f,
+                                  .lamp_field = true};
     world.sky = (Sky){.kind = SKY_SUN_SKY,
                       .color = {1.0f, 1.0f, 1.0f},
                       .sun_elevation = 35.0f,
