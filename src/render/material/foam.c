@@ -23,7 +23,8 @@ static float beyond_border(Vec2 p, uint32_t seed)
 {
     float column = floorf(p.x), row = floorf(p.y), nearest = INFINITY, second = INFINITY;
     for (int n = 0; n < 9; n++) {
-        float x = column + (float)(n % 3 - 1), y = row + (float)(n / 3 - 1);
+        int across = n % 3 - 1, down = n / 3 - 1;
+        float x = column + (float)across, y = row + (float)down;
         uint32_t square = (uint32_t)(int32_t)x * 0x8da6b343u + (uint32_t)(int32_t)y * 0xd8163841u;
         float dx = x + 0.06f + 0.88f * noise_unit(square, seed) - p.x;
         float dy = y + 0.06f + 0.88f * noise_unit(square, seed + 1) - p.y;
