@@ -27,36 +27,20 @@ typedef struct Range {
 static void set_weakness(const Range *r, Landscape *land, const Run *run)
 {
     uint64_t key = random_key(r->terrain->seed, STREAM_WEAKNESS);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
-    for (int row = 0; row < land->side; row++) {
-        for (int column = 0; column < land->side; column++) {
-            float x = (float)((land->corner + column * land->cell) / r->size);
-            float z = (float)((land->corner + row * land->cell) / r->size);
-            float n = sparse_noise_fractal(9.0f * x, 9.0f * z, 6, 0.72f, 0.0f, key);
-            land->weakness[(int64_t)row * land->side + column] =
-                clampf(1.0f + 0.5f * n, 0.2f, 2.5f);
-        }
-    }
+    const WeaknessNoise noise = {r->size, 9.0f, 6, 0.72f, 0.5f};
+    terrain_set_weakness(land, &noise, key, run);
 }
 
 // Walls break along joints and crushed zones, which are larger and fewer than what leads rivers:
 // between them stand ribs and buttresses.
 static void set_joints(const Range *r, Landscape *land, const Run *run)
 {
-    uint64_t key = random_key(r->terrain->seed, STREAM_JOINTS);
     int octaves = 4;
     for (int cells = ICE_CELLS; cells < land->side - 1; cells *= 2) {
         octaves++; // down to two cells
     }
-#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
-    for (int row = 0; row < land->side; row++) {
-        for (int column = 0; column < land->side; column++) {
-            float x = (float)((land->corner + column * land->cell) / r->size);
-            float z = (float)((land->corner + row * land->cell) / r->size);
-            float n = sparse_noise_fractal(13.0f * x, 13.0f * z, octaves, 0.62f, 0.0f, key);
-            land->weakness[(int64_t)row * land->side + column] = clampf(1.0f + n, 0.2f, 2.5f);
-        }
-    }
+    const WeaknessNoise noise = {r->size, 13.0f, octaves, 0.62f, 1.0f};
+    terrain_set_weakness(land, &noise, random_key(r->terrain->seed, STREAM_JOINTS), run);
 }
 
 // Rivers in a rising block, nearly in steady state. Stream power is linear in heights, so the

@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "objects/terrain/internal.h"
-#include "objects/terrain/noise.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,20 +35,12 @@ static Landscape *walls_on(const Walls *w, int cells, Error *e)
 static void set_joints(const Walls *w, Landscape *land, const Run *run)
 {
     const double longest = 1600.0; // m
-    uint64_t key = random_key(w->terrain->seed, STREAM_JOINTS);
     int octaves = 1;
     for (double wave = longest; wave > 3.0 * land->cell && octaves < 9; wave *= 0.5) {
         octaves++;
     }
-#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
-    for (int row = 0; row < land->side; row++) {
-        for (int column = 0; column < land->side; column++) {
-            float x = (float)((land->corner + column * land->cell) / longest);
-            float z = (float)((land->corner + row * land->cell) / longest);
-            float n = sparse_noise_fractal(x, z, octaves, 0.62f, 0.0f, key);
-            land->weakness[(int64_t)row * land->side + column] = clampf(1.0f + n, 0.2f, 2.5f);
-        }
-    }
+    const WeaknessNoise noise = {longest, 1.0f, octaves, 0.62f, 1.0f};
+    terrain_set_weakness(land, &noise, random_key(w->terrain->seed, STREAM_JOINTS), run);
 }
 
 // Debris leaves where water does: at low places of the border, in rivers and in lakes.
