@@ -27,7 +27,7 @@ typedef struct Range {
 static void set_weakness(const Range *r, Landscape *land, const Run *run)
 {
     uint64_t key = random_key(r->terrain->seed, STREAM_WEAKNESS);
-    const WeaknessNoise noise = {r->size, 9.0f, 6, 0.72f, 0.5f};
+    const WeaknessNoise noise = {r->size, 9.0f, 6, 0.72f, 0.5f, 0.2f};
     terrain_set_weakness(land, &noise, key, run);
 }
 
@@ -39,7 +39,7 @@ static void set_joints(const Range *r, Landscape *land, const Run *run)
     for (int cells = ICE_CELLS; cells < land->side - 1; cells *= 2) {
         octaves++; // down to two cells
     }
-    const WeaknessNoise noise = {r->size, 13.0f, octaves, 0.62f, 1.0f};
+    const WeaknessNoise noise = {r->size, 13.0f, octaves, 0.62f, 1.0f, 0.2f};
     terrain_set_weakness(land, &noise, random_key(r->terrain->seed, STREAM_JOINTS), run);
 }
 

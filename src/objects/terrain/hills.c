@@ -40,18 +40,13 @@ static void set_rates(Hills *h)
 // Rock differs from place to place, so that no two hills are alike.
 static void set_weakness(const Hills *h, Landscape *land, const Run *run)
 {
-    uint64_t key = random_key(h->terrain->seed, STREAM_WEAKNESS);
-    double wavelength = 1.5 * (double)h->params.hills.spacing;
-#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
-    for (int row = 0; row < land->side; row++) {
-        for (int column = 0; column < land->side; column++) {
-            float x = (float)((land->corner + column * land->cell) / wavelength);
-            float z = (float)((land->corner + row * land->cell) / wavelength);
-            float n = sparse_noise_fractal(x, z, 4, 0.6f, 0.0f, key);
-            land->weakness[(int64_t)row * land->side + column] =
-                clampf(1.0f + 0.7f * n, 0.25f, 2.5f);
-        }
-    }
+    const WeaknessNoise noise = {.unit = 1.5 * (double)h->params.hills.spacing,
+                                 .scale = 1.0f,
+                                 .octaves = 4,
+                                 .gain = 0.6f,
+                                 .strength = 0.7f,
+                                 .least = 0.25f};
+    terrain_set_weakness(land, &noise, random_key(h->terrain->seed, STREAM_WEAKNESS), run);
 }
 
 static void roughen(const Hills *h, Landscape *land)

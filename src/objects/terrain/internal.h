@@ -258,12 +258,13 @@ bool terrain_erode(HeightField *field, const TerrainErosionParams *params, const
                    Error *e);
 
 enum { WALLS_COARSE_CELLS = 512, WALLS_FINE_CELLS = 1024 }; // a side
-// weakness.c: how weak the rock of a landscape is, 0.2 .. 2.5 with a mean of 1.
+// weakness.c: how weak the rock of a landscape is: up to 2.5, with a mean of 1.
 typedef struct WeaknessNoise {
     double unit;          // m
     float scale;          // waves of the first octave in a unit
     int octaves;          // each of half the length of the one before
     float gain, strength; // of each octave beside the one before; of all
+    float least;
 } WeaknessNoise;
 void terrain_set_weakness(Landscape *land, const WeaknessNoise *noise, uint64_t key,
                           const Run *run);

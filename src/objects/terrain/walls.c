@@ -39,7 +39,7 @@ static void set_joints(const Walls *w, Landscape *land, const Run *run)
     for (double wave = longest; wave > 3.0 * land->cell && octaves < 9; wave *= 0.5) {
         octaves++;
     }
-    const WeaknessNoise noise = {longest, 1.0f, octaves, 0.62f, 1.0f};
+    const WeaknessNoise noise = {longest, 1.0f, octaves, 0.62f, 1.0f, 0.2f};
     terrain_set_weakness(land, &noise, random_key(w->terrain->seed, STREAM_JOINTS), run);
 }
 

@@ -12,7 +12,7 @@ void terrain_set_weakness(Landscape *land, const WeaknessNoise *noise, uint64_t 
             float n = sparse_noise_fractal(noise->scale * x, noise->scale * z, noise->octaves,
                                            noise->gain, 0.0f, key);
             land->weakness[(int64_t)row * land->side + column] =
-                clampf(1.0f + noise->strength * n, 0.2f, 2.5f);
+                clampf(1.0f + noise->strength * n, noise->least, 2.5f);
         }
     }
 }
