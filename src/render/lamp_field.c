@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "render/integrator.h"
+#include "render/lamp_tally.h"
 #include "render/light/emission.h"
 #include "render/path.h"
 
@@ -15,30 +16,15 @@ enum {
     LEAST_PHOTONS = 20000,
     MOST_PHOTONS = 2000000,
     MOST_VOXELS = 1200000,
-    BLOCK = 256, // photons of one piece of work
-    LEVELS = 8
+    BLOCK = 256 // photons of one piece of work
 };
 
-static const float LEAST_COLLIDING = 0.02f;    // share of photons, below which a field does not pay
-static const float SPREAD = 3.0f;              // standard deviations of collisions that it covers
-static const float SIDE = 0.35f;               // of a voxel, in mean free paths, at least
-static const float QUANTUM = 1.0f / (1 << 24); // of lengths in a voxel, in shares of its side
-static const float TRUSTED = 64.0f; // visits with which a voxel counts as much as those around it
-
-// Visits of photons, in whole quanta: their sum does not depend on the order.
-typedef struct Tally {
-    int64_t color[3];
-    int64_t visits;
-} Tally;
-
-typedef struct Box {
-    Vec3 low;
-    float voxel; // m
-    int count[3];
-} Box;
+static const float LEAST_COLLIDING = 0.02f; // share of photons, below which a field does not pay
+static const float SPREAD = 3.0f;           // standard deviations of collisions that it covers
+static const float SIDE = 0.35f;            // of a voxel, in mean free paths, at least
 
 struct LampField {
-    Box box;
+    LampBox box;
     Vec3 *mean; // owned: radiance; x first, then y, z last
 };
 
@@ -46,16 +32,6 @@ typedef struct Photon {
     Vec3 origin, direction, color;
     uint64_t key;
 } Photon;
-
-static int64_t voxels(const Box *box)
-{
-    return (int64_t)box->count[0] * box->count[1] * box->count[2];
-}
-
-static int64_t voxel_at(const Box *box, int x, int y, int z)
-{
-    return ((int64_t)z * box->count[1] + y) * box->count[0] + x;
-}
 
 void lamp_field_free(LampField *field)
 {
@@ -175,9 +151,9 @@ static bool survey(Survey *out, const Tracer *tracer, const EmissionTable *table
 }
 
 // The box that holds nearly all collisions.
-static Box lay_out(const Survey *s)
+static LampBox lay_out(const Survey *s)
 {
-    Box box;
+    LampBox box;
     float low[3], size[3], most = 0.0f, volume = 1.0f;
     double n = (double)s->all.collisions;
     for (int axis = 0; axis < 3; axis++) {
@@ -203,64 +179,9 @@ static Box lay_out(const Survey *s)
     return box;
 }
 
-// ---- the tally
+// ---- all photons
 
-static void count_visit(Tally *tally, Vec3 color, float share)
-{
-    float c[3] = {color.x, color.y, color.z};
-    for (int k = 0; k < 3; k++) {
-        int64_t quanta = (int64_t)(c[k] * share / QUANTUM + 0.5f);
-#pragma omp atomic
-        tally->color[k] += quanta;
-    }
-#pragma omp atomic
-    tally->visits += 1;
-}
-
-// Counts the lengths of a stretch within each voxel that it crosses (Amanatides and Woo 1987).
-static void count_stretch(Tally *tally, const Box *box, Vec3 from, Vec3 direction, float far,
-                          Vec3 color)
-{
-    Vec3 start = vec3_scale(vec3_sub(from, box->low), 1.0f / box->voxel);
-    float o[3] = {start.x, start.y, start.z}, d[3] = {direction.x, direction.y, direction.z};
-    float near = 0.0f;
-    far /= box->voxel;
-    for (int axis = 0; axis < 3; axis++) {
-        float inverse = 1.0f / d[axis]; // of 0: infinite, which the comparisons below take
-        float a = -o[axis] * inverse, b = ((float)box->count[axis] - o[axis]) * inverse;
-        near = fmaxf(near, fminf(a, b));
-        far = fminf(far, fmaxf(a, b));
-    }
-    if (!(near < far)) {
-        return;
-    }
-    int at[3], step[3];
-    float next[3], delta[3];
-    for (int axis = 0; axis < 3; axis++) {
-        float place = o[axis] + near * d[axis];
-        at[axis] = (int)clampf(floorf(place), 0.0f, (float)box->count[axis] - 1.0f);
-        step[axis] = d[axis] > 0.0f ? 1 : -1;
-        delta[axis] = fabsf(1.0f / d[axis]);
-        float border = (float)at[axis] + (d[axis] > 0.0f ? 1.0f : 0.0f);
-        next[axis] = d[axis] != 0.0f ? (border - o[axis]) / d[axis] : INFINITY;
-    }
-    while (near < far) {
-        int axis = next[0] < next[1] ? 0 : 1;
-        axis = next[2] < next[axis] ? 2 : axis;
-        float out = fminf(next[axis], far);
-        if (out > near) {
-            count_visit(&tally[voxel_at(box, at[0], at[1], at[2])], color, out - near);
-        }
-        near = fmaxf(near, out);
-        at[axis] += step[axis];
-        next[axis] += delta[axis];
-        if ((unsigned)at[axis] >= (unsigned)box->count[axis]) {
-            return;
-        }
-    }
-}
-
-static void fly_photon(Tally *tally, const Box *box, const Tracer *tracer,
+static void fly_photon(LampTally *tally, const LampBox *box, const Tracer *tracer,
                        const EmissionTable *table, uint64_t key)
 {
     Photon photon = photon_start(table, key);
@@ -269,11 +190,11 @@ static void fly_photon(Tally *tally, const Box *box, const Tracer *tracer,
         Vec3 from = photon.origin, direction = photon.direction;
         float length;
         goes_on = photon_fly(&photon, tracer, (uint64_t)i, &length);
-        count_stretch(tally, box, from, direction, length, photon.color);
+        lamp_tally_stretch(tally, box, from, direction, length, photon.color);
     }
 }
 
-static bool fly_photons(Tally *tally, const Box *box, const Tracer *tracer,
+static bool fly_photons(LampTally *tally, const LampBox *box, const Tracer *tracer,
                         const EmissionTable *table, int64_t photons, uint64_t key, const Run *run,
                         Error *e)
 {
@@ -295,123 +216,20 @@ static bool fly_photons(Tally *tally, const Box *box, const Tracer *tracer,
     return !run_is_cancelled(run) || run_cancel_error(e);
 }
 
-// ---- from visits to radiance
-
-// A coarser box, whose voxels are eight of the finer one's.
-static Box coarser(const Box *box)
-{
-    Box out = {.low = box->low, .voxel = 2.0f * box->voxel};
-    for (int axis = 0; axis < 3; axis++) {
-        out.count[axis] = (box->count[axis] + 1) / 2;
-    }
-    return out;
-}
-
-static void sum_eights(Tally *to, const Box *coarse, const Tally *from, const Box *fine)
-{
-    for (int z = 0; z < fine->count[2]; z++) {
-        for (int y = 0; y < fine->count[1]; y++) {
-            for (int x = 0; x < fine->count[0]; x++) {
-                const Tally *t = &from[voxel_at(fine, x, y, z)];
-                Tally *sum = &to[voxel_at(coarse, x / 2, y / 2, z / 2)];
-                for (int k = 0; k < 3; k++) {
-                    sum->color[k] += t->color[k];
-                }
-                sum->visits += t->visits;
-            }
-        }
-    }
-}
-
-// Interpolates between the middles of voxels.
-static Vec3 interpolate(const Vec3 *value, const Box *box, Vec3 p)
-{
-    Vec3 own = vec3_scale(vec3_sub(p, box->low), 1.0f / box->voxel);
-    float place[3] = {own.x, own.y, own.z}, part[3];
-    int at[3][2];
-    for (int axis = 0; axis < 3; axis++) {
-        float x = clampf(place[axis] - 0.5f, 0.0f, (float)box->count[axis] - 1.0f);
-        at[axis][0] = (int)x;
-        at[axis][1] = at[axis][0] + 1 < box->count[axis] ? at[axis][0] + 1 : at[axis][0];
-        part[axis] = x - (float)at[axis][0];
-    }
-    Vec3 sum = vec3_splat(0.0f);
-    for (int k = 0; k < 8; k++) {
-        float weight = 1.0f;
-        for (int axis = 0; axis < 3; axis++) {
-            weight *= k >> axis & 1 ? part[axis] : 1.0f - part[axis];
-        }
-        sum = vec3_madd(sum, weight,
-                        value[voxel_at(box, at[0][k & 1], at[1][k >> 1 & 1], at[2][k >> 2])]);
-    }
-    return sum;
-}
-
-// Fills value with means; few visits count little beside the values of the coarser box. scale: what
-// a quantum is in a voxel of 1 m.
-static void settle(Vec3 *value, const Tally *tally, const Box *box, const Vec3 *coarse,
-                   const Box *coarse_box, float scale)
-{
-    float quantum = scale / (box->voxel * box->voxel);
-    for (int z = 0; z < box->count[2]; z++) {
-        for (int y = 0; y < box->count[1]; y++) {
-            for (int x = 0; x < box->count[0]; x++) {
-                int64_t i = voxel_at(box, x, y, z);
-                const Tally *t = &tally[i];
-                value[i] = vec3((float)t->color[0], (float)t->color[1], (float)t->color[2]);
-                value[i] = vec3_scale(value[i], quantum);
-                if (coarse) {
-                    Vec3 middle =
-                        vec3_madd(box->low, box->voxel,
-                                  vec3((float)x + 0.5f, (float)y + 0.5f, (float)z + 0.5f));
-                    Vec3 around = interpolate(coarse, coarse_box, middle);
-                    float trust = (float)t->visits / ((float)t->visits + TRUSTED);
-                    value[i] =
-                        vec3_add(vec3_scale(value[i], trust), vec3_scale(around, 1.0f - trust));
-                }
-            }
-        }
-    }
-}
-
-// The means of a level, with those of coarser ones where visits are few. The caller frees them.
-// Lengths of coarser voxels are still counted in sides of the finest.
-static Vec3 *means(const Tally *tally, const Box *box, float scale, int level, Error *e)
-{
-    Vec3 *value = memory_alloc(voxels(box), sizeof *value, e);
-    Box next = coarser(box);
-    bool last = level + 1 == LEVELS || voxels(box) == 1;
-    Tally *sums = value && !last ? memory_alloc_zero(voxels(&next), sizeof *sums, e) : NULL;
-    Vec3 *coarse = NULL;
-    if (sums) {
-        sum_eights(sums, &next, tally, box);
-        // eight times the volume, of which `settle` takes four
-        coarse = means(sums, &next, 0.5f * scale, level + 1, e);
-    }
-    free(sums);
-    if (!value || (!last && !coarse)) {
-        free(value);
-        return NULL;
-    }
-    settle(value, tally, box, coarse, &next, scale);
-    free(coarse);
-    return value;
-}
-
 static bool fill(LampField *field, const Tracer *tracer, const EmissionTable *table,
                  const Survey *s, uint64_t key, const Run *run, Error *e)
 {
-    Box *box = &field->box;
+    LampBox *box = &field->box;
     int64_t photons = (int64_t)((double)SEGMENTS * PILOTS / s->all.segments);
     photons = photons < LEAST_PHOTONS ? LEAST_PHOTONS : photons;
     photons = (photons < MOST_PHOTONS ? photons : MOST_PHOTONS) / BLOCK * BLOCK;
-    Tally *tally = memory_alloc_zero(voxels(box), sizeof *tally, e);
+    LampTally *tally = memory_alloc_zero(lamp_box_voxels(box), sizeof *tally, e);
     if (!tally || !fly_photons(tally, box, tracer, table, photons, key, run, e)) {
         free(tally);
         return false;
     }
-    float scale = QUANTUM * emission_power(table) / (4.0f * PI_F * (float)photons);
-    field->mean = means(tally, box, scale, 0, e);
+    float scale = emission_power(table) / (4.0f * PI_F * (float)photons);
+    field->mean = lamp_tally_means(tally, box, scale, e);
     free(tally);
     return field->mean;
 }
@@ -454,7 +272,7 @@ bool lamp_field_at(const LampField *field, Vec3 p, Vec3 *mean)
     if (!field) {
         return false;
     }
-    const Box *box = &field->box;
+    const LampBox *box = &field->box;
     Vec3 own = vec3_scale(vec3_sub(p, box->low), 1.0f / box->voxel);
     const float place[3] = {own.x, own.y, own.z};
     for (int axis = 0; axis < 3; axis++) {
@@ -462,6 +280,6 @@ bool lamp_field_at(const LampField *field, Vec3 p, Vec3 *mean)
             return false;
         }
     }
-    *mean = interpolate(field->mean, box, p);
+    *mean = lamp_box_interpolate(field->mean, box, p);
     return true;
 }
