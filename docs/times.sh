@@ -9,7 +9,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 if [ "$1" != --write ]; then
     docs/gallery.sh --times "$@" | tee "$work/new"
-    sed 's/: / /; s/ s$//' "$work/new" | cat docs/times.txt - | # a later line takes the place of an earlier one
+    sed -n 's/^\(.*\): \([0-9]*\) s$/\1 \2/p' "$work/new" | # not those that were skipped
+         cat docs/times.txt - | # a later line takes the place of an earlier one
         awk '{ seconds[$1] = $2 } END { for (name in seconds) print name, seconds[name] }' | LC_ALL=C sort >"$work/times"
     cp "$work/times" docs/times.txt
 fi
