@@ -29,7 +29,8 @@ typedef struct Contest {
 
 typedef struct SceneObject {
     char *name;
-    uint64_t seed; // 0 = from the scene's seed and the name
+    uint64_t seed;        // 0 = from the scene's seed and the name
+    bool species_targets; // the targets of its species hold for it
     ClearOf *clear_of;
     int clear_of_count;
     Contest *contest;            // NULL = none

@@ -1,5 +1,6 @@
 #include "scene/species.h"
 
+#include "config/scalar.h"
 #include "config/yaml.h"
 #include "objects/kind.h"
 #include "scene/species_file.h"
@@ -250,8 +251,19 @@ static bool add_materials(Applier *a, const SpeciesFile *file, const Node *named
     return merge_list(a, list, node_get(file->root, "materials"), "name", NULL);
 }
 
+// A value that is neither true nor false is an error once the tables load the object.
+static bool wants_targets(const Node *object)
+{
+    const char *text = node_get_text(object, "species_targets");
+    bool wanted = true;
+    return !text || !scalar_truth(text, &wanted) || wanted;
+}
+
 static bool add_targets(Applier *a, const SpeciesFile *file, const Node *object)
 {
+    if (!wants_targets(object)) {
+        return true;
+    }
     const Node *own = node_get(file->root, "targets"), *name = node_get(object, "name");
     Node *list = own && name ? list_of(a, a->root, "targets") : NULL;
     if (!list) {

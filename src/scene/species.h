@@ -11,7 +11,8 @@
 //   (species_size.h).
 // - Its materials become materials of the scene, NAME of the species SPECIES as SPECIES_NAME, also
 //   where the file refers to them; keys of the scene's own material of that name stay.
-// - Its targets become targets of the object, except for measures that the scene has a target for.
+// - Its targets become targets of the object, except for measures that the scene has a target for;
+//   none do where the object says species_targets: false.
 // A species file can itself begin with a species that it changes.
 // file, folder: of the scene. ERROR_INPUT names the place in the scene or in the species file.
 bool species_apply(Node *root, const char *file, const char *folder, Arena *arena, Error *e);

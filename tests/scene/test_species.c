@@ -62,6 +62,35 @@ static void a_file_gives_keys_materials_and_targets(void **state)
     scene_free(scene);
 }
 
+// One that no longer stands has none of its species' targets, but keeps those of the scene and all
+// else of the species; other objects of the species keep theirs.
+static void targets_can_be_left_out(void **state)
+{
+    Fixture *fixture = *state;
+    write_file(fixture, "birch.yaml", BIRCH);
+    Scene *scene = fixture_read(fixture, "objects:\n"
+                                         "  - {name: fallen, species_targets: false, tree: "
+                                         "{species: birch.yaml}}\n"
+                                         "  - {name: other, species_targets: no, tree: "
+                                         "{species: birch.yaml}}\n"
+                                         "  - {name: upright, species_targets: true, tree: "
+                                         "{species: birch.yaml}}\n"
+                                         "targets: [{object: other, measure: width, low: 1}]\n");
+    assert_float_equal(tree_of(scene, 0)->height, 10.0, 0.0);
+    assert_string_equal(scene->objects[0].material[TREE_BARK], "birch_bark");
+    assert_int_equal(scene->target_count, 2);
+    assert_string_equal(scene->targets[0].object, "other");
+    assert_string_equal(scene->targets[0].measure, "width");
+    assert_string_equal(scene->targets[1].object, "upright");
+    scene_free(scene);
+    fixture_refuse(fixture,
+                   "objects:\n"
+                   "  - name: a\n"
+                   "    species_targets: 3\n"
+                   "    tree: {species: birch.yaml}\n",
+                   "must be true or false", 3);
+}
+
 static void lengths_follow_the_height(void **state)
 {
     Fixture *fixture = *state;
@@ -335,6 +364,7 @@ int main(void)
 #define TEST(name) cmocka_unit_test_setup_teardown(name, fixture_set_up, fixture_tear_down)
     const struct CMUnitTest tests[] = {
         TEST(a_file_gives_keys_materials_and_targets),
+        TEST(targets_can_be_left_out),
         TEST(lengths_follow_the_height),
         TEST(envelopes_follow_the_position),
         TEST(the_scene_changes_materials_by_key),
