@@ -8,13 +8,21 @@
 
 typedef struct Tower {
     double height, ratio; // m; diameter of its foot's area over the height
-    double x, z;          // of the summit
+    double x, z;          // of the middle of its foot
+    bool whole;           // the border does not cut it
 } Tower;
 
 typedef struct Towers {
     Tower *tower;
     int64_t count;
 } Towers;
+
+// What is connected above a level.
+typedef struct Region {
+    int64_t area, summit; // samples; the highest one's number
+    double x, z;          // m: its middle
+    bool whole;           // it does not touch the border
+} Region;
 
 static int by_value(const void *a, const void *b)
 {
@@ -28,31 +36,34 @@ static double median(double *values, int64_t count)
     return count > 0 ? values[count / 2] : (double)NAN;
 }
 
-// Fills the region above `level` that holds sample i; false if it touches the border.
-static bool region(const Landscape *land, double level, int64_t i, uint8_t *seen, int64_t *stack,
-                   int64_t *area, int64_t *summit)
+// The region above `level` that holds sample i. seen, stack: of all samples.
+static Region region(const Landscape *land, double level, int64_t i, uint8_t *seen, int64_t *stack)
 {
     int64_t count = 0;
-    bool whole = true;
+    double columns = 0.0, rows = 0.0;
+    Region all = {.summit = i, .whole = true};
     stack[count++] = i;
     seen[i] = 1;
-    for (*area = 0, *summit = i; count > 0; ++*area) {
+    while (count > 0) {
         int64_t at = stack[--count], side = land->side;
         int64_t column = at % side, row = at / side;
-        *summit = land->rock[at] > land->rock[*summit] ? at : *summit;
-        if (column == 0 || row == 0 || column == side - 1 || row == side - 1) {
-            whole = false;
-            continue;
-        }
+        all.area++;
+        columns += (double)column;
+        rows += (double)row;
+        all.summit = land->rock[at] > land->rock[all.summit] ? at : all.summit;
+        const bool inside[] = {column > 0, column<side - 1, row> 0, row < side - 1};
         const int64_t next[] = {at - 1, at + 1, at - side, at + side};
         for (int k = 0; k < 4; k++) {
-            if (!seen[next[k]] && land->rock[next[k]] > level) {
+            all.whole = all.whole && inside[k];
+            if (inside[k] && !seen[next[k]] && land->rock[next[k]] > level) {
                 seen[next[k]] = 1;
                 stack[count++] = next[k];
             }
         }
     }
-    return whole;
+    all.x = land->corner + columns / (double)all.area * land->cell;
+    all.z = land->corner + rows / (double)all.area * land->cell;
+    return all;
 }
 
 static bool find_towers(const Landscape *land, double relief, double least_area, Towers *towers,
@@ -64,19 +75,18 @@ static bool find_towers(const Landscape *land, double relief, double least_area,
     towers->tower = memory_alloc(count / 4, sizeof *towers->tower, e);
     bool done = seen && stack && towers->tower;
     for (int64_t i = 0; done && i < count; i++) {
-        int64_t area, summit;
         if (seen[i] || land->rock[i] <= 0.1 * relief) {
             continue;
         }
-        bool whole = region(land, 0.1 * relief, i, seen, stack, &area, &summit);
-        double foot = (double)area * land->cell * land->cell, height = land->rock[summit];
-        if (whole && foot > least_area && height > 0.2 * relief && towers->count < count / 4) {
-            int64_t row = summit / land->side;
+        Region all = region(land, 0.1 * relief, i, seen, stack);
+        double foot = (double)all.area * land->cell * land->cell, height = land->rock[all.summit];
+        if (foot > least_area && height > 0.2 * relief && towers->count < count / 4) {
             towers->tower[towers->count++] =
                 (Tower){.height = height,
                         .ratio = 2.0 * sqrt(foot / 3.14159265358979) / height,
-                        .x = land->corner + (double)(summit % land->side) * land->cell,
-                        .z = land->corner + (double)row * land->cell};
+                        .x = all.x,
+                        .z = all.z,
+                        .whole = all.whole};
         }
     }
     free(seen);
@@ -138,17 +148,21 @@ bool terrain_measure_karst(const Terrain *terrain, MeasureList *list, Error *e)
     double *values = memory_alloc(landscape_count(land), sizeof *values, e);
     bool done = values && find_towers(land, relief, least, &t, e);
     if (done) {
+        int64_t whole = 0;
         for (int64_t i = 0; i < t.count; i++) {
-            values[i] = t.tower[i].height;
+            values[whole] = t.tower[i].height;
+            whole += t.tower[i].whole;
         }
-        double height = median(values, t.count);
+        double height = median(values, whole);
+        whole = 0;
         for (int64_t i = 0; i < t.count; i++) {
-            values[i] = t.tower[i].ratio;
+            values[whole] = t.tower[i].ratio;
+            whole += t.tower[i].whole;
         }
-        double ratio = median(values, t.count);
+        double ratio = median(values, whole);
         double slope = flank_slope(land, relief, values);
         double index = nearest_neighbour_index(&t, (double)params.size);
-        done = measures_add(list, "towers", (double)t.count, "", nan, nan, e) &&
+        done = measures_add(list, "towers", (double)whole, "", nan, nan, e) &&
                measures_add(list, "tower_height", height, "m", nan, nan, e) &&
                measures_add(list, "tower_ratio", ratio, "", nan, nan, e) &&
                measures_add(list, "flank_slope", slope, "degrees", nan, nan, e) &&
