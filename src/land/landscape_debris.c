@@ -12,6 +12,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double TALUS_AREA = 4.0e4; // m^2: debris of less rests at its angle of repose
 static const double FLATTEST = 0.08;    // of fans
@@ -51,20 +52,16 @@ static double scour(const Landscape *land, const LandscapeRates *rates, int32_t 
     return top > height ? top - height : 0.0;
 }
 
-// Fills `dug`: m of rock that each sample loses.
-static bool find_scour(const Landscape *land, const LandscapeRates *rates, double time, double *dug,
-                       Error *e)
+// Fills `dug`: m of rock that each sample loses. top: m, of each sample afterwards.
+static void find_scour(const Landscape *land, const LandscapeRates *rates, double time, double *dug,
+                       double *top)
 {
     const Routing *route = land->route;
-    double *top = memory_alloc(landscape_count(land), sizeof *top, e);
-    for (int64_t k = 0; top && k < route->count; k++) {
+    for (int64_t k = 0; k < route->count; k++) {
         int32_t i = route->order[k], to = route->receiver[i];
         dug[i] = to == i ? 0.0 : scour(land, rates, i, way_length(land, i, to), top[to], time);
         top[i] = land->rock[i] + land->loose[i] - dug[i];
     }
-    bool done = top;
-    free(top);
-    return done;
 }
 
 // Hands debris down. load: m^3 that reaches each sample; settled: m that come to rest there.
@@ -100,42 +97,71 @@ static void hand_down(Landscape *land, const LandscapeRates *rates, const double
 }
 
 // Flows leave their way where they come to rest: what has settled spreads downhill beside it, which
-// makes cones and fans of it. settled, next: m, before and after a turn.
-static void spread_row(const Landscape *land, const double *settled, double *next, int row)
+// makes cones and fans of it.
+typedef struct Spread {
+    const Landscape *land;
+    double *ground;         // m: rock and loose cover
+    double *settled, *next; // m: before and after a turn
+    double *top;            // m: ground and what has settled
+} Spread;
+
+// What a row gains in a turn. Loops run along the row, direction by direction, so that they can be
+// vectorized.
+static void spread_row(const Spread *s, int row)
 {
-    for (int column = 0; column < land->side; column++) {
-        int64_t i = (int64_t)row * land->side + column;
-        double gained = 0.0, here = land->rock[i] + land->loose[i] + settled[i];
-        for (int k = 0; k < 9; k++) {
-            int c = column + k % 3 - 1, r = row + k / 3 - 1;
-            if (k == 4 || c < 0 || r < 0 || c >= land->side || r >= land->side) {
-                continue;
-            }
-            int64_t n = (int64_t)r * land->side + c;
-            double there = land->rock[n] + land->loose[n] + settled[n];
-            double drop = here - there, from = drop > 0.0 ? settled[i] : settled[n];
+    const Landscape *land = s->land;
+    int64_t first = (int64_t)row * land->side;
+    const double *top = s->top + first, *settled = s->settled + first;
+    const uint8_t *base = land->base + first;
+    double *gained = s->next + first;
+    memset(gained, 0, sizeof *gained * (size_t)land->side);
+    for (int k = 0; k < 9; k++) {
+        int dx = k % 3 - 1, r = row + k / 3 - 1;
+        if (k == 4 || r < 0 || r >= land->side) {
+            continue;
+        }
+        int64_t offset = (int64_t)(r - row) * land->side + dx;
+        int end = dx > 0 ? land->side - 1 : land->side;
+#pragma omp simd
+        for (int c = dx < 0 ? 1 : 0; c < end; c++) {
+            double drop = top[c] - top[c + offset];
+            double from = drop > 0.0 ? settled[c] : settled[c + offset];
             double size = drop > 0.0 ? drop : -drop;
             double moves = 0.11 * (size < from ? size : from);
-            bool open = !land->base[i] && !land->base[n];
-            gained += !open ? 0.0 : drop > 0.0 ? -moves : moves;
+            moves = base[c] || base[c + offset] ? 0.0 : moves;
+            gained[c] += drop > 0.0 ? -moves : moves;
         }
-        next[i] = settled[i] + gained;
+    }
+    for (int c = 0; c < land->side; c++) {
+        gained[c] = settled[c] + gained[c];
     }
 }
 
-static double *spread(const Landscape *land, double *settled, double *next, int threads)
+static void spread(Spread *s, int threads)
 {
-    enum { TIMES = 8 };
-    for (int k = 0; k < TIMES; k++) {
+    enum { TIMES = 8 }; // even: the last turn ends in the array that was given
+    const Landscape *land = s->land;
+    int64_t count = landscape_count(land);
 #pragma omp parallel for schedule(static) num_threads(threads)
-        for (int row = 0; row < land->side; row++) {
-            spread_row(land, settled, next, row);
-        }
-        double *swap = settled;
-        settled = next;
-        next = swap;
+    for (int64_t i = 0; i < count; i++) {
+        s->ground[i] = land->rock[i] + land->loose[i];
     }
-    return settled; // the one that was given, since TIMES is even
+    for (int k = 0; k < TIMES; k++) {
+#pragma omp parallel num_threads(threads)
+        {
+#pragma omp for schedule(static)
+            for (int64_t i = 0; i < count; i++) {
+                s->top[i] = s->ground[i] + s->settled[i];
+            }
+#pragma omp for schedule(static)
+            for (int row = 0; row < land->side; row++) {
+                spread_row(s, row);
+            }
+        }
+        double *swap = s->settled;
+        s->settled = s->next;
+        s->next = swap;
+    }
 }
 
 bool landscape_debris(Landscape *land, const LandscapeRates *rates, double time, const Run *run,
@@ -144,19 +170,23 @@ bool landscape_debris(Landscape *land, const LandscapeRates *rates, double time,
     if (rates->debris <= 0.0) {
         return true;
     }
-    double *dug = memory_alloc_zero(landscape_count(land), sizeof *dug, e);
-    double *load = dug ? memory_alloc_zero(landscape_count(land), sizeof *load, e) : NULL;
-    double *settled = load ? memory_alloc_zero(landscape_count(land), sizeof *load, e) : NULL;
-    bool done = settled && find_scour(land, rates, time, dug, e);
-    if (done) {
+    int64_t count = landscape_count(land);
+    double *dug = memory_alloc_zero(count, sizeof *dug, e);
+    double *load = dug ? memory_alloc_zero(count, sizeof *load, e) : NULL;
+    double *settled = load ? memory_alloc_zero(count, sizeof *settled, e) : NULL;
+    double *top = settled ? memory_alloc(count, sizeof *top, e) : NULL;
+    if (top) {
+        find_scour(land, rates, time, dug, top);
         hand_down(land, rates, dug, load, settled);
-        spread(land, settled, load, run->threads);
-        for (int64_t i = 0; i < landscape_count(land); i++) {
+        spread(&(Spread){land, dug, settled, load, top}, run->threads);
+        for (int64_t i = 0; i < count; i++) {
             land->loose[i] += settled[i];
         }
     }
+    bool done = top;
+    free(top);
     free(settled);
-    free(dug);
     free(load);
+    free(dug);
     return done;
 }

@@ -106,6 +106,24 @@ static void noise_keeps_to_its_band(void **state)
     assert_true(power_at(3.5) < 0.002 * inside);
 }
 
+// At places close together, on a way back, and far apart, about 0 and below it.
+static void many_places_at_once_have_the_same_bits(void **state)
+{
+    (void)state;
+    enum { COUNT = 300 };
+    for (int line = 0; line < 40; line++) {
+        float step = line % 4 == 0 ? 0.013f : line % 4 == 1 ? -0.21f : line % 4 == 2 ? 0.9f : 7.7f;
+        float x[COUNT], y[COUNT], sum[COUNT], want[COUNT];
+        for (int i = 0; i < COUNT; i++) {
+            x[i] = -3.0f + step * (float)i;
+            y[i] = 2.1f * (float)(line - 20) + 0.3f * step * (float)(i % 50);
+            want[i] = sparse_noise_fractal(x[i], y[i], 7, 0.62f, 0.1f * (float)(line % 3), 9);
+        }
+        sparse_noise_fractal_along(x, y, COUNT, 7, 0.62f, 0.1f * (float)(line % 3), 9, sum);
+        assert_memory_equal(sum, want, sizeof want);
+    }
+}
+
 static void kernels_are_poisson_distributed(void **state)
 {
     (void)state;
@@ -798,6 +816,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(noise_has_mean_0_and_variance_1),
         cmocka_unit_test(noise_keeps_to_its_band),
+        cmocka_unit_test(many_places_at_once_have_the_same_bits),
         cmocka_unit_test(kernels_are_poisson_distributed),
         cmocka_unit_test(a_trough_is_the_least_over_its_river),
         cmocka_unit_test(the_envelope_is_that_of_brute_force),

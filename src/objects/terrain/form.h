@@ -12,6 +12,8 @@ typedef enum Repeat {
     REPEAT_ALONG     // mirrored along x; along z itself, on its slope
 } Repeat;
 
+enum { FORM_MOST_SAMPLES = 256 };
+
 typedef struct Form {
     const char *material; // of the land, unless the scene names beds or a material; NULL = mountain
     const char *water;    // of the water that `water` of its heights tells; NULL = there is none
@@ -34,6 +36,9 @@ typedef struct Form {
     bool (*record)(HeightField *field, Error *e);
     // Fills sample i of the field, at a place.
     void (*sample)(const Terrain *terrain, HeightField *field, int64_t i, float x, float z);
+    // Fills `count` <= FORM_MOST_SAMPLES samples of a row, from i on. NULL = one by one.
+    void (*sample_part)(const Terrain *terrain, HeightField *field, int64_t i, const float *x,
+                        float z, int count);
     // After erosion, before terraces, and after them. NULL = nothing to do.
     bool (*drain)(Terrain *terrain, HeightField *field, const Run *run, Error *e);
     bool (*finish)(Terrain *terrain, HeightField *field, const Run *run, Error *e);

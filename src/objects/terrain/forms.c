@@ -105,17 +105,21 @@ static void sample_noise(const Terrain *terrain, HeightField *field, int64_t i, 
 }
 
 // Wetness is how much of the ground is loose.
-static void sample_evolved(const Terrain *terrain, HeightField *field, int64_t i, float x, float z)
+static void sample_evolved(const Terrain *terrain, HeightField *field, int64_t i, const float *x,
+                           float z, int count)
 {
-    EvolvedPlace place = terrain_evolved_at(terrain, x, z);
-    field->height[i] = place.height;
-    field->wetness[i] = (float)((double)place.loose / ((double)place.loose + 1.0));
-    field->loose[i] = place.loose;
-    if (field->change) {
-        field->change[i] = place.change;
-    }
-    if (field->ground) {
-        field->ground[i] = height_field_at(terrain->ground, x, z);
+    EvolvedPlace places[FORM_MOST_SAMPLES];
+    terrain_evolved_along(terrain, x, z, count, places);
+    for (int k = 0; k < count; k++, i++) {
+        field->height[i] = places[k].height;
+        field->wetness[i] = (float)((double)places[k].loose / ((double)places[k].loose + 1.0));
+        field->loose[i] = places[k].loose;
+        if (field->change) {
+            field->change[i] = places[k].change;
+        }
+        if (field->ground) {
+            field->ground[i] = height_field_at(terrain->ground, x[k], z);
+        }
     }
 }
 
@@ -246,7 +250,7 @@ static const Form FORMS[] = {
                         .finish_tree = terrain_fill_courses,
                         .evolve = terrain_evolve_plateau,
                         .record = record_change,
-                        .sample = sample_evolved,
+                        .sample_part = sample_evolved,
                         .finish = terrain_lay_rivers},
     [TERRAIN_MESAS] = {.relief = 0.04f,
                        .wavelength = 0.125f,
@@ -255,14 +259,14 @@ static const Form FORMS[] = {
                        .finish_tree = terrain_fill_courses,
                        .evolve = terrain_evolve_plateau,
                        .record = record_change,
-                       .sample = sample_evolved,
+                       .sample_part = sample_evolved,
                        .finish = terrain_lay_rivers},
     [TERRAIN_ALPS] = {.material = "terrain/alps",
                       .relief = 0.16f,
                       .wavelength = 0.125f,
                       .evolve = terrain_evolve_alps,
                       .record = record_loose,
-                      .sample = sample_evolved,
+                      .sample_part = sample_evolved,
                       .finish = finish_alps,
                       .measure = terrain_measure_alps},
     [TERRAIN_VOLCANO] = {.material = "terrain/volcano",
@@ -270,7 +274,7 @@ static const Form FORMS[] = {
                          .wavelength = 0.125f,
                          .evolve = terrain_evolve_volcano,
                          .record = record_ground,
-                         .sample = sample_evolved,
+                         .sample_part = sample_evolved,
                          .finish = finish_volcano,
                          .measure = terrain_measure_volcano},
     [TERRAIN_DUNES] = {.material = "terrain/dunes",
@@ -284,7 +288,7 @@ static const Form FORMS[] = {
                        .wavelength = 0.125f,
                        .evolve = terrain_evolve_hills,
                        .record = record_loose,
-                       .sample = sample_evolved,
+                       .sample_part = sample_evolved,
                        .finish = finish_hills,
                        .measure = terrain_measure_hills},
     [TERRAIN_COAST] = {.material = "terrain/coast",
@@ -294,7 +298,7 @@ static const Form FORMS[] = {
                        .shows_beds = true,
                        .evolve = terrain_evolve_coast,
                        .record = record_loose,
-                       .sample = sample_evolved,
+                       .sample_part = sample_evolved,
                        .finish = finish_coast,
                        .measure = terrain_measure_coast},
     [TERRAIN_BRAIDED] = {.material = "terrain/braided",
@@ -312,7 +316,7 @@ static const Form FORMS[] = {
                        .shows_beds = true,
                        .evolve = terrain_evolve_karst,
                        .record = record_loose,
-                       .sample = sample_evolved,
+                       .sample_part = sample_evolved,
                        .finish = finish_karst,
                        .measure = terrain_measure_karst},
     [TERRAIN_MEANDER] = {.material = "terrain/floodplain",

@@ -364,7 +364,9 @@ typedef struct EvolvedPlace {
     float loose;  // m of loose ground on the rock
     float change; // m since the plateau was whole; of alps and volcanoes, which had none, 0
 } EvolvedPlace;
-EvolvedPlace terrain_evolved_at(const Terrain *terrain, float x, float z);
+// At `count` <= FORM_MOST_SAMPLES places, whose x are given, of a row.
+void terrain_evolved_along(const Terrain *terrain, const float *x, float z, int count,
+                           EvolvedPlace *place);
 // Height of the river at a node of the tree of courses, m.
 float terrain_course_height(const TerrainParams *params, const OutTree *tree, int64_t i);
 

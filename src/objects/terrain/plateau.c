@@ -106,25 +106,44 @@ static void set_weakness(const Plateau *p, Landscape *land, const Run *run)
     }
 }
 
-// Height of the plateau before rivers cut it.
-static float plateau_at(const Terrain *terrain, const TerrainParams *params, float x, float z)
+// Heights of the plateau before rivers cut it at `count` <= FORM_MOST_SAMPLES places.
+static void plateau_along(const Terrain *terrain, const TerrainParams *params, const float *x,
+                          const float *z, int count, float *height)
 {
     uint64_t key = random_key(terrain->seed, STREAM_PLATEAU);
     float tilt = params->form == TERRAIN_CANYON ? 0.008f : 0.0f;
-    float u = 7.0f * x / params->size, v = 7.0f * z / params->size;
-    float rough = 0.0014f * params->size * sparse_noise_fractal(u, v, 6, 0.5f, 0.0f, key);
-    return params->relief + tilt * fabsf(x) + rough;
+    float u[FORM_MOST_SAMPLES], v[FORM_MOST_SAMPLES], n[FORM_MOST_SAMPLES];
+    for (int k = 0; k < count; k++) {
+        u[k] = 7.0f * x[k] / params->size;
+        v[k] = 7.0f * z[k] / params->size;
+    }
+    sparse_noise_fractal_along(u, v, count, 6, 0.5f, 0.0f, key, n);
+    for (int k = 0; k < count; k++) {
+        height[k] = params->relief + tilt * fabsf(x[k]) + 0.0014f * params->size * n[k];
+    }
+}
+
+static void raise_part(const Plateau *p, Landscape *land, int row, int first)
+{
+    float x[FORM_MOST_SAMPLES] = {0}, z[FORM_MOST_SAMPLES] = {0}, height[FORM_MOST_SAMPLES];
+    int left = land->side - first, count = left < FORM_MOST_SAMPLES ? left : FORM_MOST_SAMPLES;
+    for (int k = 0; k < count; k++) {
+        x[k] = (float)(land->corner + (first + k) * land->cell);
+        z[k] = (float)(land->corner + row * land->cell);
+    }
+    plateau_along(p->terrain, &p->params, x, z, count, height);
+    double *rock = land->rock + (int64_t)row * land->side + first;
+    for (int k = 0; k < count; k++) {
+        rock[k] = (double)height[k];
+    }
 }
 
 static void raise_plateau(const Plateau *p, Landscape *land, const Run *run)
 {
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int row = 0; row < land->side; row++) {
-        for (int column = 0; column < land->side; column++) {
-            float x = (float)(land->corner + column * land->cell);
-            float z = (float)(land->corner + row * land->cell);
-            land->rock[(int64_t)row * land->side + column] =
-                (double)plateau_at(p->terrain, &p->params, x, z);
+        for (int first = 0; first < land->side; first += FORM_MOST_SAMPLES) {
+            raise_part(p, land, row, first);
         }
     }
 }
@@ -248,24 +267,46 @@ Landscape *terrain_evolve_plateau(Terrain *terrain, const Run *run, Error *e)
     return NULL;
 }
 
-EvolvedPlace terrain_evolved_at(const Terrain *terrain, float x, float z)
+// Faces follow joints: they are not as smooth in plan as the grid of the processes makes them.
+// Moves places, all of row z.
+static void move_to_joints(const Terrain *terrain, bool worn, float *x, float *z, int count)
 {
-    bool worn = terrain_form(terrain->params)->plateau;
     const float wavelength = 0.006f * terrain->params->size;
     uint64_t key = random_key(terrain->seed, STREAM_JOINTS);
-    float u = x / wavelength, v = z / wavelength;
-    // Faces follow joints: they are not as smooth in plan as the grid of the processes makes them.
     float reach = (worn ? 0.13f : 0.05f) * wavelength;
-    float dx = reach * sparse_noise_fractal(u, v, 4, 0.55f, 0.0f, key);
-    float dz = reach * sparse_noise_fractal(u, v, 4, 0.55f, 0.0f, key + 1);
-    double loose;
-    double height = landscape_at(terrain->evolved, (double)(x + dx), (double)(z + dz), &loose);
-    EvolvedPlace place = {.height = (float)height, .loose = (float)loose};
+    float u[FORM_MOST_SAMPLES], v[FORM_MOST_SAMPLES], n[2][FORM_MOST_SAMPLES];
+    for (int axis = 0; axis < 2; axis++) {
+        for (int k = 0; k < count; k++) {
+            u[k] = x[k] / wavelength;
+            v[k] = z[k] / wavelength;
+        }
+        sparse_noise_fractal_along(u, v, count, 4, 0.55f, 0.0f, key + (uint64_t)axis, n[axis]);
+    }
+    for (int k = 0; k < count; k++) {
+        x[k] += reach * n[0][k];
+        z[k] += reach * n[1][k];
+    }
+}
+
+void terrain_evolved_along(const Terrain *terrain, const float *x, float z, int count,
+                           EvolvedPlace *place)
+{
+    bool worn = terrain_form(terrain->params)->plateau;
+    float at_x[FORM_MOST_SAMPLES], at_z[FORM_MOST_SAMPLES], whole[FORM_MOST_SAMPLES];
+    for (int k = 0; k < count; k++) {
+        at_x[k] = x[k];
+        at_z[k] = z;
+    }
+    move_to_joints(terrain, worn, at_x, at_z, count);
     if (worn) {
         TerrainParams params = terrain_params_resolve(terrain->params);
-        // Between samples rock may lie a little above the plateau: it was not worn there.
-        float change = place.height - plateau_at(terrain, &params, x + dx, z + dz);
-        place.change = fminf(change, place.loose);
+        plateau_along(terrain, &params, at_x, at_z, count, whole);
     }
-    return place;
+    for (int k = 0; k < count; k++) {
+        double loose;
+        double height = landscape_at(terrain->evolved, (double)at_x[k], (double)at_z[k], &loose);
+        place[k] = (EvolvedPlace){.height = (float)height, .loose = (float)loose};
+        // Between samples rock may lie a little above the plateau: it was not worn there.
+        place[k].change = worn ? fminf(place[k].height - whole[k], place[k].loose) : 0.0f;
+    }
 }

@@ -101,6 +101,24 @@ bool terrain_finish(const void *params, const Recipe *recipe, const Grown *whole
     return done;
 }
 
+static void sample_part(const Terrain *terrain, const Form *form, HeightField *field, int row,
+                        int first)
+{
+    float x[FORM_MOST_SAMPLES], z = field->origin.y + (float)row * field->cell.y;
+    int left = field->columns - first, count = left < FORM_MOST_SAMPLES ? left : FORM_MOST_SAMPLES;
+    int64_t i = (int64_t)row * field->columns + first;
+    for (int k = 0; k < count; k++) {
+        x[k] = field->origin.x + (float)(first + k) * field->cell.x;
+    }
+    if (form->sample_part) {
+        form->sample_part(terrain, field, i, x, z, count);
+        return;
+    }
+    for (int k = 0; k < count; k++) {
+        form->sample(terrain, field, i + k, x[k], z);
+    }
+}
+
 static bool sample_land(const Terrain *terrain, HeightField *field, const Run *run)
 {
     const Form *form = terrain_form(terrain->params);
@@ -109,11 +127,8 @@ static bool sample_land(const Terrain *terrain, HeightField *field, const Run *r
         if (run_is_cancelled(run)) {
             continue;
         }
-        for (int column = 0; column < field->columns; column++) {
-            int64_t i = (int64_t)row * field->columns + column;
-            float x = field->origin.x + (float)column * field->cell.x;
-            float z = field->origin.y + (float)row * field->cell.y;
-            form->sample(terrain, field, i, x, z);
+        for (int first = 0; first < field->columns; first += FORM_MOST_SAMPLES) {
+            sample_part(terrain, form, field, row, first);
         }
     }
     return !run_is_cancelled(run);
