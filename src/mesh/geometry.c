@@ -22,6 +22,7 @@ static void part_clear(Part *part)
     free(part->variation);
     free(part->season);
     height_field_free(part->land);
+    spray_free(part->spray);
 }
 
 bool geometry_add(Geometry *geometry, Part part, Error *e)
@@ -104,6 +105,7 @@ GeometryCounts geometry_counts(const Geometry *geometry)
             counts.bytes += curves_bytes(part->curves);
         }
         counts.bytes += part->land ? height_field_bytes(part->land) : 0;
+        counts.bytes += part->spray ? part->spray->count * (int64_t)sizeof(SprayParcel) : 0;
         counts.instances += part->instance_count;
         counts.bytes += part->instance_count * (int64_t)sizeof(Transform);
     }

@@ -8,6 +8,7 @@
 #include "base/run.h"
 #include "land/height_field.h"
 #include "mesh/curves.h"
+#include "mesh/spray.h"
 
 typedef enum PartKind { PART_MESH, PART_CURVES } PartKind;
 
@@ -35,6 +36,7 @@ typedef struct Part {
     CoarseMesh coarse[PART_COARSE_MOST]; // of an instanced mesh: from fine to coarse
     HeightField *land; // owned; of a terrain whose maps are drawn: what the part shows, in the
                        // scene; NULL = none
+    SprayParcels *spray;      // owned; what it throws up; NULL = nothing
 } Part;
 
 typedef struct Geometry {

@@ -72,6 +72,7 @@ typedef struct Kind {
     bool reads_water; // it avoids the scene's water
     bool keeps_clear; // its growth keeps out of the obstacles of Recipe.room
     bool contends;    // its growth takes turns with its rivals by Recipe.room
+    bool sprays;      // its parts may throw up spray (Part.spray)
     bool carried;     // it can be deformed: it is its out-tree, or plain meshes, and nothing else
 
     // Sets the object's own space and transforms its parameters (a copy) into it; NULL = scene

@@ -53,7 +53,7 @@ World *world_new(Error *e)
 void world_free(World *world)
 {
     if (world) {
-        cloud_floors_free(world->cloud, world->cloud_count);
+        cloud_grounds_free(world->cloud, world->cloud_count);
         free(world->cloud);
         free(world->shower);
         free(world->light);

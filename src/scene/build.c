@@ -9,7 +9,7 @@
 #include "render/world.h"
 #include "scene/builtin.h"
 #include "scene/carry.h"
-#include "scene/fog_pools.h"
+#include "scene/cloud_grounds.h"
 #include "scene/making.h"
 #include "scene/masks.h"
 #include "scene/needs.h"
@@ -86,7 +86,7 @@ static bool add_lights(World *world, const Scene *scene, Error *e)
 
 static bool add_clouds(World *world, const Scene *scene, Error *e)
 {
-    cloud_floors_free(world->cloud, world->cloud_count);
+    cloud_grounds_free(world->cloud, world->cloud_count);
     void *list = world->cloud;
     bool done = copy_list(&list, &world->cloud_count, scene->clouds, scene->cloud_count,
                           sizeof *world->cloud, e);
@@ -421,7 +421,7 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
     }
     bool done = scene_give_settings(scene, world, e) &&
                 scene_place_objects(world, scene, NULL, NULL, false, run, stats, e) &&
-                ((scene_pool_fog(world, scene, run, e) && scene_make_masks(world, scene, run, e)) ||
+                ((scene_ground_clouds(world, scene, run, e) && scene_make_masks(world, scene, run, e)) ||
                  scene_fail_at(scene, "", e));
     if (!done) {
         world_free(world);

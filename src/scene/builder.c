@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "config/compare.h"
 #include "render/world.h"
-#include "scene/fog_pools.h"
+#include "scene/cloud_grounds.h"
 #include "scene/masks.h"
 #include "scene/needs.h"
 #include "scene/place.h"
@@ -201,7 +201,7 @@ World *scene_builder_build(SceneBuilder *builder, const Scene *scene, const Run 
     bool done =
         scene_give_settings(scene, builder->world, e) &&
         (all || build_objects(builder, scene, stays, run, stats, e)) &&
-        (scene_pool_fog(builder->world, scene, run, e) || scene_fail_at(scene, "", e)) &&
+        (scene_ground_clouds(builder->world, scene, run, e) || scene_fail_at(scene, "", e)) &&
         (masked || scene_make_masks(builder->world, scene, run, e) || scene_fail_at(scene, "", e));
     free(stays);
     builder->scene = *scene;

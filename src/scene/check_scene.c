@@ -447,7 +447,7 @@ static bool check_neighbours(const Mapping *mapping, const Scene *scene)
 
 // ---- clouds
 
-// Fog that lies over a terrain needs one.
+// Fog that lies over a terrain needs one, spray falls or surf.
 static bool check_clouds(const Mapping *mapping, const Scene *scene)
 {
     const Node *list = node_get(mapping->given, "clouds");
@@ -460,7 +460,22 @@ static bool check_clouds(const Mapping *mapping, const Scene *scene)
         if (over && object < 0) {
             return no_object(mapping, scene, node_get(given, "over"), where);
         }
-        if (over && !scene->objects[object].kind->heights) {
+        const Kind *kind = over ? scene->objects[object].kind : NULL;
+        bool sprays = scene->clouds[i].kind == CLOUD_SPRAY;
+        if (sprays && !over) {
+            snprintf(where, sizeof where, "clouds.%d", i);
+            return load_fail(mapping->loader, given,
+                             "%s: spray needs the key 'over': the terrain with waterfalls, or the "
+                             "sea with a bed, that throws it up",
+                             where);
+        }
+        if (sprays && !kind->sprays) {
+            return load_fail(mapping->loader, node_get(given, "over"),
+                             "%s: object '%.60s' is of the kind %s; it must be a terrain with "
+                             "waterfalls or a sea with a bed",
+                             where, over, kind_name(kind));
+        }
+        if (!sprays && over && !kind->heights) {
             return load_fail(mapping->loader, node_get(given, "over"),
                              "%s: object '%.60s' is of the kind %s; it must be a terrain", where,
                              over, kind_name(scene->objects[object].kind));

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "config/yaml.h"
 #include "render/film.h"
-#include "scene/fog_pools.h"
+#include "scene/cloud_grounds.h"
 #include "scene/masks.h"
 #include "scene/place.h"
 

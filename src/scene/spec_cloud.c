@@ -9,7 +9,8 @@
 
 static const EnumName KINDS[] = {{"cumulus", CLOUD_CUMULUS}, {"stratus", CLOUD_STRATUS},
                                  {"storm", CLOUD_STORM},     {"fog", CLOUD_FOG},
-                                 {"grid", CLOUD_GRID},       {0}};
+                                 {"grid", CLOUD_GRID},       {"spray", CLOUD_SPRAY},
+                                 {0}};
 
 static const Key CLOUD_KEYS[] = {
     {KEY_OF(Cloud, kind, "kind", KEY_ENUM), .names = KINDS,
@@ -18,7 +19,7 @@ static const Key CLOUD_KEYS[] = {
             "storm: one cumulonimbus, whose anvil the wind draws out; fog: fills the air from its "
             "base, densest there, up to a wavy top with wisps, out of which higher land stands; "
             "grid: the "
-            "voxels of an OpenVDB file."},
+            "voxels of an OpenVDB file; spray: what waterfalls and surf before cliffs throw up."},
     {KEY_OF(Cloud, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(CLOUD_GRID),
      .doc = "VDB file with a grid of floats: a fog volume's values, or the inside of a level set."},
     {KEY_OF(Cloud, grid, "grid", KEY_TEXT), .kinds = BIT(CLOUD_GRID),
@@ -46,7 +47,7 @@ static const Key CLOUD_KEYS[] = {
             "or fog; of the storm below its anvil."},
     {KEY_OF(Cloud, extinction, "extinction", KEY_FLOAT), .high = 1, .unit = "1/m",
      .doc = "Extinction where droplets are dense, from a quarter of the thickness up, or at the "
-            "base of fog, or where a grid is 1: 0.05 = one sees 60 m far in it; 0.003 for veils of "
+            "base of fog, where a grid is 1, or where spray leaves the foot of a fall: 0.05 = one sees 60 m far in it; 0.003 for veils of "
             "ice."},
     {KEY_OF(Cloud, softness, "softness", KEY_FLOAT), .kinds = BIT(CLOUD_CUMULUS) | BIT(CLOUD_STORM),
      .high = 1,
@@ -62,8 +63,9 @@ static const Key CLOUD_KEYS[] = {
     {KEY_OF(Cloud, shelf, "shelf", KEY_FLOAT), .kinds = BIT(CLOUD_STORM), .high = 2,
      .doc = "Shelf cloud: how far tiers of low cloud overhang the land ahead of the storm, where "
             "the wind blows to, in shares of its size; 0 = none."},
-    {KEY_OF(Cloud, over, "over", KEY_TEXT), .kinds = BIT(CLOUD_FOG),
-     .doc = "Name of a terrain in whose hollows and valleys the fog lies, in high ones as in low "
+    {KEY_OF(Cloud, over, "over", KEY_TEXT), .kinds = BIT(CLOUD_FOG) | BIT(CLOUD_SPRAY),
+     .doc = "Of spray, which needs it: name of a terrain whose waterfalls, or of a sea whose surf "
+            "before the steep land of its bed throws it up. Of fog: name of a terrain in whose hollows and valleys the fog lies, in high ones as in low "
             "ones: its thickness counts from a level that follows the low ground, and base does "
             "not count. Beyond the terrain's rim it goes on as over the terrain's copies. Default: "
             "fog of one level."},

@@ -70,10 +70,11 @@ static float azimuth(const LeavesParams *leaves, const LeafNode *node, int k, ui
     return n * step + within + 8.0f * (random_unit(random_key(key, STREAM_TURN)) - 0.5f);
 }
 
-// Turns a leaf's axis y into the level spray of its twig, its upper side z up.
+// Turns a leaf's axis y into the level spray of its twig, or that of a rosette into a level plane,
+// its upper side z up.
 static void flatten(const LeavesParams *leaves, Vec3 along, Vec3 *y, Vec3 *z)
 {
-    Vec3 up = across(UP, along);
+    Vec3 up = leaves->arrangement == ARRANGE_ROSETTE ? UP : across(UP, along);
     *y = vec3_normalize(vec3_madd(*y, -leaves->plane * vec3_dot(*y, up), up));
     *z = vec3_add(vec3_scale(*z, 1.0f - leaves->plane), vec3_scale(up, leaves->plane));
 }

@@ -62,8 +62,8 @@ static const Key LEAVES_KEYS[] = {
      .doc = "How far leaves hang straight down from their stalk, as eucalyptus' and weeping "
             "willow's."},
     {KEY_OF(LeavesParams, plane, "plane", KEY_FLOAT), .high = 1,
-     .doc = "How far leaves turn into one level spray with their twig, as beech's: upper sides "
-            "up."},
+     .doc = "How far leaves turn into one level spray with their twig, as beech's, or those of a "
+            "rosette into a level plane, as water lilies': upper sides up."},
     {KEY_OF(LeavesParams, shape, "shape", KEY_ENUM), .names = SHAPES,
      .doc =
          "Outline of a blade or leaflet. oak: rounded lobes; ovate: egg-shaped (beech, cherry, "

@@ -20,6 +20,7 @@ bool placing_add(const Placing *placing, Part part, int role, Error *e)
         free(part.variation);
         free(part.season);
         height_field_free(part.land);
+        spray_free(part.spray);
         return false;
     }
     part.kind = part.curves ? PART_CURVES : PART_MESH;

@@ -35,7 +35,8 @@ typedef struct Search {
     const ShapeSurface *surface; // NULL = the land
     double *area;                // m^2, of the surface's faces 0 .. i; NULL with the land
     PointHash *taken;            // NULL = places may be as near as they like
-    Where where;                 // maps that places are chosen by
+    const HeightField *land; // of the terrain they stand on; NULL = none, or not known
+    Where where;             // maps that places are chosen by
     const HeightField *wet; // the land that tells where its water is; NULL = unknown, or conditions
                             // on the water's depth decide
     float shares;           // of all things
@@ -186,16 +187,36 @@ static bool within(float value, const float range[2])
 }
 
 // Is the place under the water of the land itself, a lake or a river?
-static bool is_under_water(const Search *s, Vec3 p)
+static bool is_under_water(const HeightField *land, Vec3 p)
 {
-    const HeightField *land = s->wet;
-    if (!land) {
+    if (!land || !land->water) {
         return false;
     }
     float u = (p.x - land->origin.x) / land->cell.x, v = (p.z - land->origin.y) / land->cell.y;
     int64_t column = (int64_t)(clampf(u, 0.0f, (float)(land->columns - 1)) + 0.5f);
     int64_t row = (int64_t)(clampf(v, 0.0f, (float)(land->rows - 1)) + 0.5f);
     return p.y < land->water[row * land->columns + column];
+}
+
+static bool covered(const Search *s, const HeightField *land, Vec3 p)
+{
+    return flood_covers(s->around->flood, p) || is_under_water(land, p);
+}
+
+// The surface of the water at a place under it, m.
+static float surface_over(const Search *s, Vec3 p)
+{
+    enum { HALVINGS = 30 };
+    float low = p.y, wide = 0.1f; // covered; and this far above it perhaps not
+    for (int i = 0; i < HALVINGS && covered(s, s->land, vec3(p.x, low + wide, p.z)); i++) {
+        low += wide;
+        wide *= 2.0f;
+    }
+    for (int i = 0; i < HALVINGS; i++) {
+        wide *= 0.5f;
+        low += covered(s, s->land, vec3(p.x, low + wide, p.z)) ? wide : 0.0f;
+    }
+    return low;
 }
 
 static bool is_allowed(const Search *s, const Spot *spot)
@@ -206,8 +227,7 @@ static bool is_allowed(const Search *s, const Spot *spot)
     bool near = !s->surface || (distance >= params->inner &&
                                 (params->radius == 0.0f || distance <= params->radius));
     return near && within(slope, params->slope) && within(spot->p.y, params->altitude) &&
-           (flood_covers(s->around->flood, spot->p) || is_under_water(s, spot->p)) ==
-               params->in_water &&
+           covered(s, s->wet, spot->p) == params->in_water &&
            random_unit(random_key(spot->key, STREAM_WHERE)) < where_share(&s->where, spot->p);
 }
 
@@ -339,6 +359,10 @@ static bool search(const Search *s, ScatterPlaces *places, const Run *run, Error
         }
         if (taken) {
             float u = random_unit(random_key(key, STREAM_VARIANT));
+            if (params->afloat) {
+                spot.p.y = surface_over(s, spot.p);
+                spot.normal = vec3(0, 1, 0);
+            }
             places->thing[places->count] =
                 thing * params->variants + (int)(u * (float)params->variants);
             places->place[places->count++] = stand(params, &spot);
@@ -353,6 +377,7 @@ bool scatter_places_init(ScatterPlaces *places, const ScatteringParams *params,
     *places = (ScatterPlaces){0};
     Search s = {
         .params = params, .around = around, .surface = recipe->surface, .seed = recipe->seed};
+    s.land = recipe->land;
     s.wet = find_wet(params, recipe->land);
     places->place = memory_alloc(params->count, sizeof *places->place, e);
     places->thing = places->place ? memory_alloc(params->count, sizeof *places->thing, e) : NULL;

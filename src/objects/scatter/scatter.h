@@ -26,6 +26,7 @@ typedef struct ScatteringParams {
     float align;       // 0 = upright .. 1 = along the surface's normal
     float sink;        // m below the surface, of a copy of scale 1
     bool in_water;     // in water, not outside of it
+    bool afloat;       // with in_water: on its surface, not on its bed
     int variants;      // of each thing
     MapRange *where;   // conditions that all hold
     int where_count;

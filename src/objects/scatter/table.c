@@ -100,6 +100,10 @@ static const Key SCATTER_KEYS[] = {
     {KEY_OF(ScatteringParams, in_water, "in_water", KEY_BOOL),
      .doc = "Stand in water, as reeds do, instead of outside of it; water is that of other objects "
             "and the lakes and rivers of the land. A condition on water-depth decides alone."},
+    {KEY_OF(ScatteringParams, afloat, "afloat", KEY_BOOL),
+     .doc = "With in_water: float on the water's surface, upright, as water lilies' leaves do, "
+            "instead of standing on its bed. altitude is still that of the bed: it tells how deep "
+            "the water may be."},
     {KEY_OF(ScatteringParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
      .doc = "Number of different individuals of each thing; all others are copies of them."},
     {0},
@@ -122,6 +126,9 @@ static bool check_scatter(const Mapping *mapping, void *params)
     }
     if (!scatter->on && !(scatter->radius > 0.0f)) {
         return mapping_fail(mapping, "radius", " is 0 m; on the land it must be greater");
+    }
+    if (scatter->afloat && !scatter->in_water) {
+        return mapping_fail(mapping, "afloat", " is true; then in_water must be true, too");
     }
     return scatter->inner < scatter->radius || scatter->radius == 0.0f ||
            mapping_fail(mapping, "inner", " is %g m; it must be less than radius, %g m",

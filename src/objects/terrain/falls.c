@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "land/height_mesh.h"
 #include "objects/terrain/internal.h"
+#include "objects/terrain/spray.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -251,6 +252,33 @@ static Mesh *fall_mesh(FallMesher *f, const int32_t *main, Error *e)
     return f->mesh;
 }
 
+// What it throws up, in the scene.
+static SprayParcels *fall_spray(const FallMesher *f, Error *e)
+{
+    SprayParcels *spray = memory_alloc_zero(1, sizeof *spray, e);
+    FallSpray fall = {.way = f->way,
+                      .across = f->across,
+                      .half = f->half,
+                      .height = f->terrain->water->position[f->lip].y - f->level,
+                      .cover = f->cover,
+                      .strands = f->columns * LAYERS,
+                      .key = random_key(f->terrain->water->id[f->lip], STRANDS + 1)};
+    bool done = spray;
+    for (int strand = 0; done && strand < fall.strands; strand++) {
+        Vec3 place[STEPS];
+        int count = strand_path(f, strand, place);
+        for (int i = 0; i < count; i++) {
+            place[i] = vec3_add(place[i], f->terrain->params->position);
+        }
+        done = count < 2 || terrain_spray_strand(&fall, strand, place, count, spray, e);
+    }
+    if (!done) {
+        spray_free(spray);
+        return NULL;
+    }
+    return spray;
+}
+
 // So many that up to 400 falls take at most about 100 MB together.
 static int strands_across(const Terrain *terrain)
 {
@@ -277,7 +305,13 @@ bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const P
         }
         FallMesher f = {.terrain = terrain, .field = field, .lip = (int32_t)i, .columns = columns};
         f.level = fmaxf(water->position[water->parent[i]].y, lake);
-        done = placing_add(placing, (Part){.mesh = fall_mesh(&f, main, e)}, TERRAIN_WATER, e);
+        Part part = {.mesh = fall_mesh(&f, main, e)};
+        part.spray = part.mesh ? fall_spray(&f, e) : NULL;
+        if (part.mesh && !part.spray) {
+            mesh_free(part.mesh);
+            part.mesh = NULL;
+        }
+        done = placing_add(placing, part, TERRAIN_WATER, e);
     }
     free(main);
     return done;

@@ -325,4 +325,5 @@ const Kind kind_terrain = {
     .geometry = terrain_geometry,
     .measure = terrain_measure,
     .heights = terrain_heights,
-    .tiles = tiles};
+    .tiles = tiles,
+    .sprays = true};

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 
 // Extinctions: a liquid water content of 0.2 to 0.5 g/m^3 in droplets of 8 to 10 um (Pruppacher and
-// Klett 1997, ch. 2). Fog: 0.1 g/m^3, in which one sees 100 m far.
+// Klett 1997, ch. 2). Fog: 0.1 g/m^3, in which one sees 100 m far. Spray: 10 g/m^3 in
+// drops of 150 um.
 Cloud cloud_default(CloudKind kind)
 {
     switch (kind) {
@@ -32,6 +33,8 @@ Cloud cloud_default(CloudKind kind)
                        .pool = 500.0f};
     case CLOUD_GRID:
         return (Cloud){.kind = kind, .extinction = 0.05f, .scale = 1.0f};
+    case CLOUD_SPRAY:
+        return (Cloud){.kind = kind, .extinction = 0.2f};
     case CLOUD_CUMULUS:
         break;
     }
@@ -44,7 +47,7 @@ Cloud cloud_default(CloudKind kind)
                    .softness = 0.5f};
 }
 
-void cloud_floors_free(Cloud *cloud, int count)
+void cloud_grounds_free(Cloud *cloud, int count)
 {
     for (int i = 0; i < count; i++) {
         if (cloud[i].floor) {
@@ -52,5 +55,7 @@ void cloud_floors_free(Cloud *cloud, int count)
             free(cloud[i].floor);
             cloud[i].floor = NULL;
         }
+        spray_free(cloud[i].spray);
+        cloud[i].spray = NULL;
     }
 }

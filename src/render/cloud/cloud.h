@@ -1,8 +1,9 @@
-// The description of clouds: heaps, sheets, storms and fog of droplets that light passes through.
+// The description of clouds: heaps, sheets, storms, fog and spray of droplets that light passes through.
 #ifndef RAMIFY_RENDER_CLOUD_CLOUD_H
 #define RAMIFY_RENDER_CLOUD_CLOUD_H
 
 #include "base/vec.h"
+#include "mesh/spray.h"
 
 #include <stdbool.h>
 
@@ -11,7 +12,8 @@ typedef enum CloudKind {
     CLOUD_STRATUS, // a sheet, closed or torn
     CLOUD_STORM,   // one cumulonimbus with its anvil
     CLOUD_FOG,     // fills the air from its base up to a wavy top; dense below
-    CLOUD_GRID     // a file's voxels
+    CLOUD_GRID,    // a file's voxels
+    CLOUD_SPRAY    // what falls and breakers throw up
 } CloudKind;
 
 // The level on which the fog of a terrain lies, over a square: samples row by row, x first.
@@ -34,9 +36,11 @@ typedef struct Cloud {
     float wind;       // degrees from +Z toward +X: where the wind blows
     float center_x, center_z; // m; CLOUD_STORM
     float shelf;              // CLOUD_STORM: how far one overhangs, in shares of the size; 0 = none
-    const char *over;  // CLOUD_FOG: terrain whose low ground it lies on; NULL = none; borrowed
+    const char *over;  // CLOUD_FOG: terrain whose low ground it lies on; CLOUD_SPRAY: object that
+                       // throws it up; NULL = none; borrowed
     float pool;        // m: with over, radius within which the lowest land is its ground
     float drift;       // CLOUD_FOG, 0..1: how far the wind has drawn it out
+    SprayParcels *spray;      // CLOUD_SPRAY: owned; NULL = not known yet
     CloudFloor *floor; // with over: the level that it lies on; NULL = not known yet
     int seed;          // of these clouds beside the scene's
     const char *file, *grid; // CLOUD_GRID: .vdb; NULL = its first grid of floats; borrowed
@@ -46,7 +50,7 @@ typedef struct Cloud {
 
 Cloud cloud_default(CloudKind kind);
 
-// Frees the floors of fog that lies on one.
-void cloud_floors_free(Cloud *cloud, int count);
+// Frees what clouds have from the objects that they lie over: floors of fog, spray.
+void cloud_grounds_free(Cloud *cloud, int count);
 
 #endif

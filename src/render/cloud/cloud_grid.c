@@ -107,7 +107,7 @@ static int64_t node_count(const CloudGrid *g)
 
 int64_t cloud_grid_bytes(const Cloud *cloud)
 {
-    if (cloud->kind == CLOUD_GRID) {
+    if (cloud_has_voxels(cloud)) {
         return cloud_voxels_bytes(cloud);
     }
     CloudGrid grid;
@@ -121,7 +121,7 @@ int64_t cloud_grid_bytes(const Cloud *cloud)
 bool cloud_grid_new(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail, uint64_t key,
                     const Run *run, Error *e)
 {
-    if (cloud->kind == CLOUD_GRID) {
+    if (cloud_has_voxels(cloud)) {
         return cloud_voxels_new(g, cloud, run, e);
     }
     describe(g, cloud, detail);

@@ -64,7 +64,7 @@ typedef struct CloudGrid {
     const DetailNoise *detail; // borrowed
     Roughness rough;
     float base, thickness, extinction;
-    SparseVolume *voxels; // CLOUD_GRID: owned, and no nodes, detail or roughness; else NULL
+    SparseVolume *voxels; // CLOUD_GRID and CLOUD_SPRAY: owned, and no nodes, detail or roughness; else NULL
     Transform to_own;     // from the scene to its own space, where low and cells are
     float sample;         // m between voxels
 } CloudGrid;

@@ -5,11 +5,13 @@
 
 #include "base/memory.h"
 #include "render/cloud/cloud_bounds.h"
+#include "render/cloud/cloud_spray.h"
 #include "shape/sparse_volume.h"
 
 #include <math.h>
 
 enum { ACROSS = CELL * 2 }; // samples along a cell's side; PARTS of them
+enum { SPRAY_BYTES = 60000000 }; // about, of some falls or a kilometre of surf
 
 _Static_assert((int)PARTS == (int)ACROSS, "a part lies between samples");
 
@@ -150,8 +152,33 @@ static bool lay_out(CloudGrid *g, const Cloud *cloud)
     return true;
 }
 
+// Voxels of spray; before it is known, of none.
+static bool sum_spray(CloudGrid *g, const Cloud *cloud, Error *e)
+{
+    const SprayParcels none = {0};
+    *g = (CloudGrid){.voxels = cloud_spray_volume(cloud->spray ? cloud->spray : &none, e)};
+    if (g->voxels && !(g->voxels->highest > 0.0f)) {
+        g->voxels->highest = 1.0f; // the scale of its bounds
+    }
+    return g->voxels;
+}
+
+static bool bound(CloudGrid *g, const Cloud *cloud, const Run *run, Error *e)
+{
+    g->extinction = cloud->extinction * g->voxels->highest;
+    g->rough.edge[1] = 4.0f * g->voxel; // over which its guiding normals turn
+    g->cell = memory_alloc(cloud_grid_cells(g), sizeof *g->cell, e);
+    return g->cell && fill_bounds(g, run, e);
+}
+
 bool cloud_voxels_new(CloudGrid *g, const Cloud *cloud, const Run *run, Error *e)
 {
+    if (cloud->kind == CLOUD_SPRAY) {
+        Cloud own = *cloud; // its samples are in the scene
+        own.scale = 1.0f;
+        own.position = own.rotation = vec3_splat(0.0f);
+        return sum_spray(g, cloud, e) && lay_out(g, &own) && bound(g, cloud, run, e);
+    }
     *g = (CloudGrid){.voxels = sparse_volume_read(cloud->file, cloud->grid, run, e)};
     if (!g->voxels) {
         return error_key(e, "file");
@@ -163,15 +190,15 @@ bool cloud_voxels_new(CloudGrid *g, const Cloud *cloud, const Run *run, Error *e
                          : "a map that cannot be inverted; resample the grid");
         return error_key(e, "file");
     }
-    g->extinction = cloud->extinction * g->voxels->highest;
-    g->rough.edge[1] = 4.0f * g->voxel; // over which its guiding normals turn
-    g->cell = memory_alloc(cloud_grid_cells(g), sizeof *g->cell, e);
-    return g->cell && fill_bounds(g, run, e);
+    return bound(g, cloud, run, e);
 }
 
 // Parts of cells that hold values take 2 bytes a sample beside its 4, cells 8 bytes each.
 int64_t cloud_voxels_bytes(const Cloud *cloud)
 {
+    if (cloud->kind == CLOUD_SPRAY) {
+        return SPRAY_BYTES;
+    }
     Run run = run_default();
     int64_t bytes = cloud->file ? sparse_volume_estimate(cloud->file, cloud->grid, &run) : 0;
     return bytes + bytes / 2 + bytes / 4;

@@ -1,4 +1,4 @@
-#include "scene/fog_pools.h"
+#include "scene/cloud_grounds.h"
 
 #include "base/memory.h"
 #include "land/cold_pool.h"
@@ -46,12 +46,46 @@ static bool pool(Cloud *cloud, const HeightField *land, const Run *run, Error *e
     return cloud->floor;
 }
 
-bool scene_pool_fog(World *world, const Scene *scene, const Run *run, Error *e)
+// What the parts of an object throw up.
+static bool gather_spray(Cloud *cloud, const Geometry *geometry, int object, Error *e)
+{
+    cloud->spray = memory_alloc_zero(1, sizeof *cloud->spray, e);
+    bool done = cloud->spray;
+    for (int64_t i = 0; done && i < geometry->count; i++) {
+        const Part *part = &geometry->part[i];
+        done = part->object != object || !part->spray || spray_join(cloud->spray, part->spray, e);
+    }
+    return done;
+}
+
+static bool raise_spray(World *world, int index, int object, Error *e)
+{
+    Cloud *cloud = &world->cloud[index];
+    if (!gather_spray(cloud, &world->geometry, object, e)) {
+        return error_key(e, "clouds.%d", index);
+    }
+    if (cloud->spray->count == 0) {
+        error_set(e, ERROR_INPUT,
+                  "object '%s' throws up no spray: it has neither a waterfall nor surf before "
+                  "steep land",
+                  cloud->over);
+        return error_key(e, "clouds.%d.over", index);
+    }
+    return true;
+}
+
+bool scene_ground_clouds(World *world, const Scene *scene, const Run *run, Error *e)
 {
     for (int i = 0; i < world->cloud_count; i++) {
         Cloud *cloud = &world->cloud[i];
         int object = cloud->over ? scene_find_object(scene, cloud->over) : -1;
         if (object < 0) { // none is asked for, or the scene is a part without the terrain
+            continue;
+        }
+        if (cloud->kind == CLOUD_SPRAY) {
+            if (!raise_spray(world, i, object, e)) {
+                return false;
+            }
             continue;
         }
         const HeightField *land = find_land(&world->geometry, object);

@@ -1,0 +1,40 @@
+// Spray: parcels of air with droplets, as falls and breakers throw them up. Clouds of the kind spray
+// show them.
+#ifndef RAMIFY_MESH_SPRAY_H
+#define RAMIFY_MESH_SPRAY_H
+
+#include "base/error.h"
+#include "base/vec.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// A ball of air, densest in its middle.
+typedef struct SprayParcel {
+    Vec3 center;   // m, in the scene
+    float radius;  // m, > 0
+    float content; // m^3 of the densest spray (density 1) that hold as many droplets
+} SprayParcel;
+
+typedef struct SprayParcels {
+    SprayParcel *parcel; // owned
+    int64_t count, capacity;
+} SprayParcels;
+
+// Adds a parcel. ERROR_MEMORY.
+bool spray_add(SprayParcels *spray, SprayParcel parcel, Error *e);
+
+// Adds all parcels of another. ERROR_MEMORY.
+bool spray_join(SprayParcels *spray, const SprayParcels *other, Error *e);
+
+// A puff of air that is shot into still air (Turner, "Buoyancy Effects in Fluids", 1973, ch. 6): it
+// widens by a share of its way as it mixes, and keeps its momentum, so that way^4 grows evenly with
+// the time. radius: m, at the start; speed: m/s, at the start. Returns its way, m, after s seconds.
+float spray_puff_way(float radius, float speed, float seconds);
+
+// The radius, m, of a puff after a way.
+float spray_puff_radius(float radius, float way);
+
+void spray_free(SprayParcels *spray); // with its parcels; NULL is fine
+
+#endif
