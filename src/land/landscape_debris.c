@@ -13,8 +13,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double TALUS_AREA = 4.0e4; // m^2: debris of less rests at its angle of repose
-static const double FLATTEST = 0.08;    // of fans
+static const double TALUS_AREA = 1.5e5; // m^2: debris of less rests at its angle of repose
+static const double FLATTEST = 0.12;    // of fans
+static const double COARSE = 0.5;       // share of the rubble that is not ground to mud on its way
 
 // The slope at which debris of a catchment comes to rest.
 static double resting_slope(double area, double repose)
@@ -72,6 +73,7 @@ static void hand_down(Landscape *land, const LandscapeRates *rates, const double
                       double *settled)
 {
     const double settles = 0.5; // share of the room that one step fills
+    double coarse = COARSE * rates->rubble;
     const Routing *route = land->route;
     double own = land->cell * land->cell;
     for (int64_t k = route->count - 1; k >= 0; k--) {
@@ -81,8 +83,8 @@ static void hand_down(Landscape *land, const LandscapeRates *rates, const double
             continue;
         }
         land->rock[i] -= dug[i];
-        land->outflow += (1.0 - rates->rubble) * dug[i] * own;
-        double arrived = load[i] / own + rates->rubble * dug[i];
+        land->outflow += (1.0 - coarse) * dug[i] * own;
+        double arrived = load[i] / own + coarse * dug[i];
         double fall = land->rock[i] + land->loose[i] - (land->rock[to] + land->loose[to]);
         double rest = way_length(land, i, to) * resting_slope(route->area[i], rates->repose);
         double over = fall - rest;
@@ -100,9 +102,11 @@ static void hand_down(Landscape *land, const LandscapeRates *rates, const double
 }
 
 // Flows leave their way where they come to rest: what has settled spreads downhill beside it, which
-// makes cones and fans of it. settled, next: m, before and after a turn.
-static void spread_row(const Landscape *land, const double *settled, double *next, int row)
+// makes cones and fans of it. settled, next: m, before and after a turn; slope: that rests.
+static void spread_row(const Landscape *land, double slope, const double *settled, double *next,
+                       int row)
 {
+    double limit = slope * land->cell;
     for (int column = 0; column < land->side; column++) {
         int64_t i = (int64_t)row * land->side + column;
         double gained = 0.0, here = land->rock[i] + land->loose[i] + settled[i];
@@ -114,7 +118,9 @@ static void spread_row(const Landscape *land, const double *settled, double *nex
             int64_t n = (int64_t)r * land->side + c;
             double there = land->rock[n] + land->loose[n] + settled[n];
             double drop = here - there, from = drop > 0.0 ? settled[i] : settled[n];
-            double size = drop > 0.0 ? drop : -drop;
+            double over =
+                (drop > 0.0 ? drop : -drop) - (k % 2 == 0 ? 1.4142135623730951 : 1.0) * limit;
+            double size = over > 0.0 ? over : 0.0;
             double moves = 0.11 * (size < from ? size : from);
             bool open = !land->base[i] && !land->base[n];
             gained += !open ? 0.0 : drop > 0.0 ? -moves : moves;
@@ -123,13 +129,14 @@ static void spread_row(const Landscape *land, const double *settled, double *nex
     }
 }
 
-static double *spread(const Landscape *land, double *settled, double *next, int threads)
+static double *spread(const Landscape *land, double slope, double *settled, double *next,
+                      int threads)
 {
     enum { TIMES = 8 };
     for (int k = 0; k < TIMES; k++) {
 #pragma omp parallel for schedule(static) num_threads(threads)
         for (int row = 0; row < land->side; row++) {
-            spread_row(land, settled, next, row);
+            spread_row(land, slope, settled, next, row);
         }
         double *swap = settled;
         settled = next;
@@ -150,7 +157,7 @@ bool landscape_debris(Landscape *land, const LandscapeRates *rates, double time,
     bool done = settled && find_scour(land, rates, time, dug, e);
     if (done) {
         hand_down(land, rates, dug, load, settled);
-        spread(land, settled, load, run->threads);
+        spread(land, 0.6 * rates->repose, settled, load, run->threads);
         for (int64_t i = 0; i < landscape_count(land); i++) {
             land->loose[i] += settled[i];
         }
