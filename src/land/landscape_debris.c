@@ -157,7 +157,7 @@ bool landscape_debris(Landscape *land, const LandscapeRates *rates, double time,
     bool done = settled && find_scour(land, rates, time, dug, e);
     if (done) {
         hand_down(land, rates, dug, load, settled);
-        spread(land, 0.6 * rates->repose, settled, load, run->threads);
+        spread(land, 0.95 * rates->repose, settled, load, run->threads);
         for (int64_t i = 0; i < landscape_count(land); i++) {
             land->loose[i] += settled[i];
         }
