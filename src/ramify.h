@@ -270,8 +270,9 @@ RAMIFY_API void ramify_land_info(const RamifyLand *land, RamifyLandInfo *info);
 // (topographic index), "river-distance" (m), "deposit" and "wear" (m that erosion has laid down
 // and taken away), "bedrock" (0..1: 1 = bare rock), "snow" (0..1 of the ground), "lava" (0..1: 1
 // = just laid), "scoria" (0..1: red with oxide), "age" (0..1: of the ground of a braided river's
-// valley), "water-depth" (m, negative above the water) or "sun-hours" (a day, with the shade of the
-// land; the year's mean at 45 degrees north, or as "sun-hours:LATITUDE:DAY", day 1 = 1 January).
+// valley), "water-depth" (m, negative above the water), "sun-hours" (a day, with the shade of the
+// land; the year's mean at 45 degrees north, or as "sun-hours:LATITUDE:DAY", day 1 = 1 January) or
+// "altitude" (m).
 // RAMIFY_BAD_INPUT for another name, and for a map that this land does not have: only a terrain's
 // own heights know of erosion, rock, lava and snow. Free with ramify_land_free.
 RAMIFY_API RamifyLand *ramify_land_map(const RamifyLand *land, const char *name,

@@ -84,9 +84,10 @@ static int find_painter(const RamifyScene *scene)
 
 static bool check_map(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
-    static const char *const maps[] = {
-        "slope",   "aspect", "curvature", "flow",   "wetness", "river-distance", "deposit",  "wear",
-        "bedrock", "snow",   "lava",      "scoria", "age",     "water-depth",    "sun-hours"};
+    static const char *const maps[] = {"slope",   "aspect",         "curvature", "flow",
+                                       "wetness", "river-distance", "deposit",   "wear",
+                                       "bedrock", "snow",           "lava",      "scoria",
+                                       "age",     "water-depth",    "sun-hours", "altitude"};
     if (!options->map) {
         return true;
     }

@@ -410,7 +410,7 @@ const Option option_table[] = {
      .value = "NAME",
      .offset = AT(map),
      .choices = "slope aspect curvature flow wetness river-distance deposit wear bedrock snow "
-                "lava scoria age water-depth sun-hours",
+                "lava scoria age water-depth sun-hours altitude",
      .type = OPTION_TEXT,
      .commands = BIT(COMMAND_GROW),
      .doc = "write this map of a terrain instead of its heights: slope, aspect (degrees), "
@@ -418,8 +418,8 @@ const Option option_table[] = {
             "(m), deposit and wear (m that erosion has laid down and taken away), bedrock (1 where "
             "rock is bare), snow (share of the ground), lava (how fresh, 0 to 1), scoria (how red, "
             "0 to 1), age (of the ground of a river's valley, 0 to 1), water-depth (m, negative "
-            "above the water) or sun-hours (a day; mean of the year at latitude 45, or as "
-            "sun-hours:LATITUDE:DAY)"},
+            "above the water), sun-hours (a day; mean of the year at latitude 45, or as "
+            "sun-hours:LATITUDE:DAY) or altitude (m)"},
     {.name = "instances",
      .value = "HOW",
      .offset = AT(instances),

@@ -82,6 +82,12 @@ static float curvature_at(const HeightField *field, const Around *a)
            (h[1] + h[7] - 2.0f * h[4]) / (field->cell.y * field->cell.y);
 }
 
+static float altitude_at(const HeightField *field, const Around *a)
+{
+    (void)field;
+    return a->h[4];
+}
+
 static bool fill_local(const HeightField *field, LocalMap *map, HeightField *out, Error *e)
 {
     (void)e;
@@ -335,7 +341,8 @@ static const struct {
                                 .needs = "a terrain with water_level or lakes, with rivers wider "
                                          "than 1.2 cells, or of form braided "
                                          "or meander"},
-    [HEIGHT_MAP_SUN_HOURS] = {"sun-hours"}};
+    [HEIGHT_MAP_SUN_HOURS] = {"sun-hours"},
+    [HEIGHT_MAP_ALTITUDE] = {"altitude", .local = altitude_at}};
 
 static int find(const char *name, size_t length)
 {

@@ -23,6 +23,7 @@
 // next
 //                 to it: HeightField.water less the height; missing where no water is near
 // sun-hours       mean hours of direct sun a day (sun_hours.h)
+// altitude        m: the height itself
 #define HEIGHT_MAPS(MAP)                  \
     MAP(SLOPE, "slope")                   \
     MAP(ASPECT, "aspect")                 \
@@ -38,7 +39,8 @@
     MAP(SCORIA, "scoria")                 \
     MAP(AGE, "age")                       \
     MAP(WATER_DEPTH, "water-depth")       \
-    MAP(SUN_HOURS, "sun-hours")
+    MAP(SUN_HOURS, "sun-hours")           \
+    MAP(ALTITUDE, "altitude")
 
 enum {
 #define MAP(ID, NAME) HEIGHT_MAP_##ID,

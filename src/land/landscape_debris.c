@@ -14,8 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double TALUS_AREA = 4.0e4; // m^2: debris of less rests at its angle of repose
-static const double FLATTEST = 0.08;    // of fans
+static const double TALUS_AREA = 1.5e5; // m^2: debris of less rests at its angle of repose
+static const double FLATTEST = 0.12;    // of fans
+static const double COARSE = 0.5;       // share of the rubble that is not ground to mud on its way
 
 // The slope at which debris of a catchment comes to rest.
 static double resting_slope(double area, double repose)
@@ -69,6 +70,7 @@ static void hand_down(Landscape *land, const LandscapeRates *rates, const double
                       double *settled)
 {
     const double settles = 0.5; // share of the room that one step fills
+    double coarse = COARSE * rates->rubble;
     const Routing *route = land->route;
     double own = land->cell * land->cell;
     for (int64_t k = route->count - 1; k >= 0; k--) {
@@ -78,8 +80,8 @@ static void hand_down(Landscape *land, const LandscapeRates *rates, const double
             continue;
         }
         land->rock[i] -= dug[i];
-        land->outflow += (1.0 - rates->rubble) * dug[i] * own;
-        double arrived = load[i] / own + rates->rubble * dug[i];
+        land->outflow += (1.0 - coarse) * dug[i] * own;
+        double arrived = load[i] / own + coarse * dug[i];
         double fall = land->rock[i] + land->loose[i] - (land->rock[to] + land->loose[to]);
         double rest = way_length(land, i, to) * resting_slope(route->area[i], rates->repose);
         double over = fall - rest;
@@ -103,6 +105,7 @@ typedef struct Spread {
     double *ground;         // m: rock and loose cover
     double *settled, *next; // m: before and after a turn
     double *top;            // m: ground and what has settled
+    double slope;           // that rests
 } Spread;
 
 // What a row gains in a turn. Loops run along the row, direction by direction, so that they can be
@@ -122,11 +125,13 @@ static void spread_row(const Spread *s, int row)
         }
         int64_t offset = (int64_t)(r - row) * land->side + dx;
         int end = dx > 0 ? land->side - 1 : land->side;
+        double limit = (k % 2 == 0 ? 1.4142135623730951 : 1.0) * (s->slope * land->cell);
 #pragma omp simd
         for (int c = dx < 0 ? 1 : 0; c < end; c++) {
             double drop = top[c] - top[c + offset];
             double from = drop > 0.0 ? settled[c] : settled[c + offset];
-            double size = drop > 0.0 ? drop : -drop;
+            double over = (drop > 0.0 ? drop : -drop) - limit;
+            double size = over > 0.0 ? over : 0.0;
             double moves = 0.11 * (size < from ? size : from);
             moves = base[c] || base[c + offset] ? 0.0 : moves;
             gained[c] += drop > 0.0 ? -moves : moves;
@@ -178,7 +183,7 @@ bool landscape_debris(Landscape *land, const LandscapeRates *rates, double time,
     if (top) {
         find_scour(land, rates, time, dug, top);
         hand_down(land, rates, dug, load, settled);
-        spread(&(Spread){land, dug, settled, load, top}, run->threads);
+        spread(&(Spread){land, dug, settled, load, top, 0.95 * rates->repose}, run->threads);
         for (int64_t i = 0; i < count; i++) {
             land->loose[i] += settled[i];
         }

@@ -196,7 +196,8 @@ static HeightField *without_margin(const HeightField *wide, Error *e)
 
 static bool is_local(int kind)
 {
-    return kind == HEIGHT_MAP_SLOPE || kind == HEIGHT_MAP_ASPECT || kind == HEIGHT_MAP_CURVATURE;
+    return kind == HEIGHT_MAP_SLOPE || kind == HEIGHT_MAP_ASPECT || kind == HEIGHT_MAP_CURVATURE ||
+           kind == HEIGHT_MAP_ALTITUDE;
 }
 
 HeightField *tile_map(const HeightField *world, const TileGrid *grid, int column, int row,

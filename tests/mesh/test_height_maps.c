@@ -110,6 +110,10 @@ static void a_bowl_is_hollow(void **state)
 {
     (void)state;
     HeightField *field = make(bowl), *map = map_of(field, "curvature");
+    HeightField *altitude = map_of(field, "altitude");
+    size_t bytes = sizeof *field->height * (size_t)height_field_count(field);
+    assert_memory_equal(altitude->height, field->height, bytes);
+    height_field_free(altitude);
     for (int row = 1; row < ROWS - 1; row++) {
         for (int column = 1; column < COLUMNS - 1; column++) {
             float c = map->height[row * COLUMNS + column];

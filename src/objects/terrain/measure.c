@@ -93,33 +93,97 @@ static double fall(const Landscape *land, int64_t i, int64_t step)
     return fmax(surface(land, i) - surface(land, i + step), 0.0);
 }
 
-// Of the samples between a tenth and nine tenths of the depth: the share that fall
-// by more than 45 degrees; and the mean fall, degrees, of those under at least 2 m of rubble.
-static void measure_slopes(const LandformSurvey *s, double *cliffs, double *talus)
+// The gradient along the steepest falls of both axes.
+static double steepness(const Landscape *land, int64_t i)
 {
+    double dx = fmax(fall(land, i, 1), fall(land, i, -1));
+    double dz = fmax(fall(land, i, land->side), fall(land, i, -land->side));
+    return sqrt(dx * dx + dz * dz) / land->cell;
+}
+
+static bool is_inner(const Landscape *land, int64_t i)
+{
+    int64_t column = i % land->side, row = i / land->side;
+    return column > 0 && row > 0 && column < land->side - 1 && row < land->side - 1;
+}
+
+static bool is_face(const Landscape *land, int64_t i)
+{
+    const double bare = 0.5; // m
+    return is_inner(land, i) && land->loose[i] < bare && steepness(land, i) > 1.0;
+}
+
+static bool is_rubble(const Landscape *land, int64_t i)
+{
+    return is_inner(land, i) && land->loose[i] > 2.0;
+}
+
+// Rubble at the foot of a bare face of more than 45 degrees: where talus begins.
+static bool is_apex(const Landscape *land, int64_t i)
+{
+    bool below = false;
+    for (int k = 0; k < 9 && is_rubble(land, i); k++) {
+        int64_t n = i + (int64_t)(k / 3 - 1) * land->side + k % 3 - 1;
+        below = below || (surface(land, n) > surface(land, i) && is_face(land, n));
+    }
+    return below;
+}
+
+// How far down talus reaches at each sample, m, negative: to 27.5 degrees below its apex, the least
+// at which blocks come to rest (the shadow angle of Evans and Hungr 1993). The caller frees it.
+static Landscape *talus_reach(const Landscape *land, Error *e)
+{
+    const double nowhere = 1e9, shadow = 0.5206;
+    Landscape *reach = landscape_new(land->side - 1, land->cell * (land->side - 1), NULL, e);
+    for (int64_t i = 0; reach && i < landscape_count(land); i++) {
+        reach->rock[i] = is_apex(land, i) ? -surface(land, i) : nowhere;
+    }
+    if (reach) {
+        landscape_fell(reach, shadow);
+    }
+    return reach;
+}
+
+typedef struct Slopes {
+    double cliffs; // share of the samples that fall by more than 45 degrees
+    double talus;  // degrees: mean fall of rubble that rockfall has brought
+    double fans;   // degrees: mean fall of the other rubble, which flows and streams have brought
+} Slopes;
+
+// Of the samples between a tenth and nine tenths of the depth. Rubble is a cover of 2 m. Within
+// reach of rockfall it is talus, which is nowhere gentler than 20 degrees; below that, and where at
+// least 0.1 km^2 drain, flows, streams and ice have laid it (Melton 1965).
+static bool measure_slopes(const LandformSurvey *s, Slopes *slopes, Error *e)
+{
+    const double flows = 1e5, gentle = 0.364; // m^2; tan 20 degrees
     const Landscape *land = s->land;
     double low = s->river + 0.1 * (s->plateau - s->river), steep = 0.0, all = 0.0;
-    double high = s->river + 0.9 * (s->plateau - s->river), sum = 0.0, covered = 0.0;
-    for (int row = 1; row < land->side - 1; row++) {
-        for (int column = 1; column < land->side - 1; column++) {
-            int64_t i = (int64_t)row * land->side + column;
-            double h = surface(land, i);
-            if (h < low || h > high) {
-                continue;
-            }
-            double dx = fmax(fall(land, i, 1), fall(land, i, -1));
-            double dz = fmax(fall(land, i, land->side), fall(land, i, -land->side));
-            double slope = sqrt(dx * dx + dz * dz) / land->cell;
-            all += 1.0;
-            steep += slope > 1.0;
-            if (land->loose[i] > 2.0) {
-                sum += (double)exact_atan2((float)slope, 1.0f) * 57.29577951308232;
-                covered += 1.0;
-            }
+    double high = s->river + 0.9 * (s->plateau - s->river), sum[2] = {0}, count[2] = {0};
+    HeightField *field = landscape_heights(land, e);
+    Drainage *drainage = field ? drainage_new(field, e) : NULL;
+    Landscape *reach = drainage ? talus_reach(land, e) : NULL;
+    for (int64_t i = 0; reach && i < landscape_count(land); i++) {
+        double h = surface(land, i);
+        if (!is_inner(land, i) || h < low || h > high) {
+            continue;
+        }
+        double slope = steepness(land, i);
+        all += 1.0;
+        steep += slope > 1.0;
+        if (is_rubble(land, i)) {
+            bool fan = slope < gentle || h >= -reach->rock[i] || drainage->area[i] >= flows;
+            sum[fan] += (double)exact_atan2((float)slope, 1.0f) * 57.29577951308232;
+            count[fan] += 1.0;
         }
     }
-    *cliffs = all > 0.0 ? steep / all : (double)NAN;
-    *talus = covered > 0.0 ? sum / covered : (double)NAN;
+    *slopes = (Slopes){.cliffs = all > 0.0 ? steep / all : (double)NAN,
+                       .talus = count[0] > 0.0 ? sum[0] / count[0] : (double)NAN,
+                       .fans = count[1] > 0.0 ? sum[1] / count[1] : (double)NAN};
+    bool done = reach;
+    landscape_free(reach);
+    drainage_free(drainage);
+    height_field_free(field);
+    return done;
 }
 
 // Length of the river over the distance between its ends.
@@ -195,12 +259,14 @@ bool terrain_measure(const void *given, const Grown *grown, const Recipe *recipe
     }
     bool rubble = !terrain->ground; // a volcano's loose ground is not rubble alone
     bool canyon = s.params.form == TERRAIN_CANYON;
-    double cliffs, talus;
-    measure_slopes(&s, &cliffs, &talus);
-    bool done = measures_add(list, "incision", s.plateau - s.river, "m", nan, nan, e) &&
-                measures_add(list, "cliff_share", cliffs, "", nan, nan, e) &&
-                (!rubble || measures_add(list, "talus_slope", talus, "degrees", 25, 38, e)) &&
-                measures_add(list, "plateau_share", share_above(&s, 0.8), "", nan, nan, e);
+    Slopes slopes;
+    bool done =
+        measure_slopes(&s, &slopes, e) &&
+        measures_add(list, "incision", s.plateau - s.river, "m", nan, nan, e) &&
+        measures_add(list, "cliff_share", slopes.cliffs, "", nan, nan, e) &&
+        (!rubble || (measures_add(list, "talus_slope", slopes.talus, "degrees", 25, 38, e) &&
+                     measures_add(list, "fan_slope", slopes.fans, "degrees", nan, nan, e))) &&
+        measures_add(list, "plateau_share", share_above(&s, 0.8), "", nan, nan, e);
     if (done && canyon) {
         done = measures_add(list, "canyon_width", canyon_width(&s, widths), "m", nan, nan, e) &&
                measures_add(list, "sinuosity", sinuosity(grown->tree), "", nan, nan, e);

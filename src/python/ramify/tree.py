@@ -96,7 +96,7 @@ class Land:
 
     def map(self, name: str) -> Land:
         """A map in the place of the heights: slope, aspect, curvature, flow, wetness, river-distance, deposit, wear, bedrock,
-        snow, lava, scoria, age, water-depth or sun-hours (also as sun-hours:LATITUDE:DAY)."""
+        snow, lava, scoria, age, water-depth, sun-hours (also as sun-hours:LATITUDE:DAY) or altitude."""
         return Land(call("land_map", self._handle.pointer, name.encode()))
 
     @property
