@@ -138,7 +138,7 @@ static bool add_triangle(Mesher *m, Point a, Point b, Point c, Error *e)
            add_corner(m, a, e) && add_corner(m, b, e) && add_corner(m, c, e);
 }
 
-static Vec3 field_normal(const HeightField *field, int column, int row)
+Vec3 height_mesh_normal(const HeightField *field, int column, int row)
 {
     int west = column > 0 ? column - 1 : 0, north = row > 0 ? row - 1 : 0;
     int east = column + 1 < field->columns ? column + 1 : column;
@@ -158,6 +158,20 @@ static Vec3 field_normal(const HeightField *field, int column, int row)
     return vec3_normalize(vec3(-dx, 1.0f, -dz));
 }
 
+Vec2 height_mesh_site(const HeightField *field, int64_t sample, float low, float high)
+{
+    if (field->wind) {
+        Vec2 wind = field->wind[sample];
+        return (Vec2){0.5f + 0.5f * wind.x, 0.5f + 0.5f * wind.y};
+    }
+    float scale = high > low ? 1.0f / (high - low) : 0.0f;
+    float felt = field->age       ? field->age[sample]
+                 : field->climate ? field->climate[sample]
+                                  : (field->height[sample] - low) * scale;
+    const float *second = field->ground ? field->ground : field->wetness;
+    return (Vec2){felt, second ? second[sample] : 0.0f};
+}
+
 static Mesh *make_mesh(const Mesher *m, Error *e)
 {
     const HeightField *field = m->field;
@@ -168,26 +182,16 @@ static Mesh *make_mesh(const Mesher *m, Error *e)
     }
     float low, high;
     height_field_range(field, &low, &high);
-    float scale = high > low ? 1.0f / (high - low) : 0.0f;
     memcpy(mesh->index, m->index, sizeof *m->index * (size_t)m->index_count);
     for (int64_t i = 0; i < m->vertex_count; i++) {
         int column = m->sample[i] % field->columns, row = m->sample[i] / field->columns;
         Vec3 p = sample_position(field, column, row);
         mesh->position[i] = p;
-        mesh->normal[i] = field_normal(field, column, row);
+        mesh->normal[i] = height_mesh_normal(field, column, row);
         mesh->uv[i] = (Vec2){p.x, p.z};
-        float felt = field->climate ? field->climate[m->sample[i]] : (p.y - low) * scale;
-        const float *second = field->ground ? field->ground : field->wetness;
-        mesh->site[i] = (Vec2){felt, second ? second[m->sample[i]] : 0.0f};
+        mesh->site[i] = height_mesh_site(field, m->sample[i], low, high);
         if (mesh->shore && field->water) {
             mesh->shore[i] = fmaxf(MESH_SHORE + field->water[m->sample[i]] - p.y, 0.0f);
-        }
-        if (field->age) {
-            mesh->site[i].x = field->age[m->sample[i]];
-        }
-        if (field->wind) {
-            Vec2 wind = field->wind[m->sample[i]];
-            mesh->site[i] = (Vec2){0.5f + 0.5f * wind.x, 0.5f + 0.5f * wind.y};
         }
     }
     return mesh;

@@ -23,6 +23,10 @@ typedef struct HeightMeshParams {
 // with mesh_free.
 Mesh *height_mesh_new(const HeightField *field, const HeightMeshParams *params, Error *e);
 
+// The normal of the land at a sample, and what Mesh.site holds there; low, high: of the whole land.
+Vec3 height_mesh_normal(const HeightField *field, int column, int row);
+Vec2 height_mesh_site(const HeightField *field, int64_t sample, float low, float high);
+
 // Height of the mesh that uses all samples, at any point; outside the field, that of the rim.
 float height_mesh_finest_at(const HeightField *field, float x, float z);
 

@@ -119,16 +119,18 @@ static bool take_records(HeightField *tile, const HeightField *world, const Tile
            height_field_take_place(tile, world, 0.0, 0.0, e);
 }
 
+static bool check_tile(const TileGrid *grid, int column, int row, Error *e)
+{
+    return (column >= 0 && row >= 0 && column < grid->count && row < grid->count) ||
+           error_set(e, ERROR_INPUT, "tile %d,%d; the world has tiles 0,0 to %d,%d", column, row,
+                     grid->count - 1, grid->count - 1);
+}
+
 // How often the world's cells are halved for this grid; -1 and e if they cannot be.
-static int find_level(const HeightField *world, const TileGrid *grid, int column, int row, Error *e)
+static int find_level(const HeightField *world, const TileGrid *grid, Error *e)
 {
     int64_t cells = (int64_t)grid->count * grid->cells;
     int level = 0;
-    if (column < 0 || row < 0 || column >= grid->count || row >= grid->count) {
-        error_set(e, ERROR_INPUT, "tile %d,%d; the world has tiles 0,0 to %d,%d", column, row,
-                  grid->count - 1, grid->count - 1);
-        return -1;
-    }
     while ((int64_t)(world->columns - 1) << level < cells) {
         level++;
     }
@@ -142,11 +144,10 @@ static int find_level(const HeightField *world, const TileGrid *grid, int column
     return level;
 }
 
-// A tile with `margin` more samples on each side.
-static HeightField *cut_tile(const HeightField *world, const TileGrid *grid, int column, int row,
-                             int margin, const Run *run, Error *e)
+HeightField *tile_land_around(const HeightField *world, const TileGrid *grid, int column, int row,
+                              int margin, const Run *run, Error *e)
 {
-    int level = find_level(world, grid, column, row, e);
+    int level = find_level(world, grid, e);
     if (level < 0) {
         return NULL;
     }
@@ -174,7 +175,8 @@ static HeightField *cut_tile(const HeightField *world, const TileGrid *grid, int
 HeightField *tile_land(const HeightField *world, const TileGrid *grid, int column, int row,
                        const Run *run, Error *e)
 {
-    return cut_tile(world, grid, column, row, 0, run, e);
+    return check_tile(grid, column, row, e) ? tile_land_around(world, grid, column, row, 0, run, e)
+                                            : NULL;
 }
 
 // The tile without its margin of one sample; its records are left behind.
@@ -204,8 +206,11 @@ HeightField *tile_map(const HeightField *world, const TileGrid *grid, int column
                       const HeightMap *map, const Run *run, Error *e)
 {
     HeightField *tile = NULL;
+    if (!check_tile(grid, column, row, e)) {
+        return NULL;
+    }
     if (is_local(map->kind)) {
-        HeightField *wide = cut_tile(world, grid, column, row, 1, run, e);
+        HeightField *wide = tile_land_around(world, grid, column, row, 1, run, e);
         HeightField *drawn = wide ? height_map(wide, map, run, e) : NULL;
         tile = drawn ? without_margin(drawn, e) : NULL;
         height_field_free(drawn);
@@ -215,7 +220,7 @@ HeightField *tile_map(const HeightField *world, const TileGrid *grid, int column
     TileGrid smooth = *grid;
     smooth.detail = 0.0f;
     HeightField *whole = height_map(world, map, run, e);
-    tile = whole ? cut_tile(whole, &smooth, column, row, 0, run, e) : NULL;
+    tile = whole ? tile_land_around(whole, &smooth, column, row, 0, run, e) : NULL;
     height_field_free(whole);
     return tile;
 }

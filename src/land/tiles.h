@@ -29,6 +29,10 @@ enum { TILE_LEAST_CELLS = 16, TILE_MOST_CELLS = 4096, TILE_MOST_COUNT = 4096 };
 HeightField *tile_land(const HeightField *world, const TileGrid *grid, int column, int row,
                        const Run *run, Error *e);
 
+// The same with `margin` more samples on each side; the tile may lie beyond the world's border.
+HeightField *tile_land_around(const HeightField *world, const TileGrid *grid, int column, int row,
+                              int margin, const Run *run, Error *e);
+
 // A map of the tile, its values in the place of heights. Slope, aspect and curvature are the tile's
 // own; those that reach far are the world's, interpolated. The caller frees it. Errors as of
 // tile_land and height_map.

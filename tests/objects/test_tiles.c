@@ -1,6 +1,8 @@
 // Tiles of a world: made alone, they match the world made whole, bit for bit.
+#include "base/mesh.h"
 #include "base/noise.h"
 #include "land/height_drainage.h"
+#include "land/tile_mesh.h"
 #include "land/tiles.h"
 #include "testing.h"
 
@@ -174,6 +176,213 @@ static void wrong_tiles_are_refused(void **state)
     height_field_free(world);
 }
 
+// ---- one mesh of many tiles
+
+static const TileGrid DRAWN = {.count = 8, .cells = 64, .detail = 1.0f, .seed = 3};
+static const Vec3 EYE = {37.0f, 60.0f, -110.0f};
+static const TileView NEAR = {.eye = &EYE, .cell = 0.03f, .beyond = 1};
+
+static Mesh *draw(const HeightField *world, const TileView *view, int threads)
+{
+    Error e = {0};
+    Run run = run_with(threads);
+    Mesh *mesh = tile_mesh_new(world, &DRAWN, view, &run, &e);
+    if (!mesh) {
+        fail_msg("%s", e.message);
+    }
+    return mesh;
+}
+
+static const Vec3 *sorted_by; // positions, for qsort
+
+static int by_position(const void *a, const void *b)
+{
+    return memcmp(&sorted_by[*(const uint32_t *)a], &sorted_by[*(const uint32_t *)b], sizeof(Vec3));
+}
+
+// The mesh's vertices in the order of the bits of their positions.
+static uint32_t *sort_vertices(const Mesh *mesh)
+{
+    uint32_t *order = malloc(sizeof *order * (size_t)mesh->vertex_count);
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        order[i] = (uint32_t)i;
+    }
+    sorted_by = mesh->position;
+    qsort(order, (size_t)mesh->vertex_count, sizeof *order, by_position);
+    return order;
+}
+
+// Vertices whose positions have the same bits become one.
+static void weld(Mesh *mesh)
+{
+    uint32_t *order = sort_vertices(mesh), *one = malloc(sizeof *one * (size_t)mesh->vertex_count);
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        bool same = i > 0 && by_position(&order[i - 1], &order[i]) == 0;
+        one[order[i]] = same ? one[order[i - 1]] : order[i];
+    }
+    for (int64_t i = 0; i < 3 * mesh->face_count; i++) {
+        mesh->index[i] = one[mesh->index[i]];
+    }
+    free(one);
+    free(order);
+}
+
+// Twice the area of a face in plan; positive if it is seen from above.
+static double plan_area(const Mesh *mesh, int64_t face)
+{
+    const uint32_t *corner = mesh->index + 3 * face;
+    Vec3 a = mesh->position[corner[0]], b = mesh->position[corner[1]],
+         c = mesh->position[corner[2]];
+    return (double)(b.z - a.z) * (double)(c.x - a.x) - (double)(b.x - a.x) * (double)(c.z - a.z);
+}
+
+// Welded by the bits of positions, tiles of many sizes are one sheet without holes, open at the rim
+// alone; every face is seen from above and all together cover the square once. So they do on the
+// Earth's curve, with a periodic world, and with no eye.
+static void tiles_meet_without_cracks(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        HeightField *world = make_world(k == 2);
+        TileView view = NEAR;
+        view.curve = k == 1 ? 1.0f / (2.0f * 6371000.0f) : 0.0f;
+        view.eye = k == 3 ? NULL : &EYE;
+        Mesh *mesh = draw(world, &view, 2);
+        int rim = 0, least = DRAWN.cells, most = 0;
+        for (int t = -8; t < 16; t++) {
+            for (int u = -8; u < 16; u++) {
+                int cells = tile_mesh_cells(world, &DRAWN, &view, t, u);
+                int sides = (t == -8) + (t == 15) + (u == -8) + (u == 15);
+                rim += sides * cells;
+                least = cells < least ? cells : least;
+                most = cells > most ? cells : most;
+            }
+        }
+        assert_true(k == 3 ? least == 8 && most == 8 : least <= 4 && most == 64);
+        double area = 0.0;
+        for (int64_t i = 0; i < mesh->face_count; i++) {
+            double own = plan_area(mesh, i);
+            assert_true(own > 0.0);
+            area += 0.5 * own;
+        }
+        assert_true(fabs(area / (3072.0 * 3072.0) - 1.0) < 1e-9);
+        weld(mesh);
+        MeshTopology topology;
+        assert_true(mesh_topology(mesh, &topology, NULL));
+        assert_int_equal(topology.open_edges, rim);
+        assert_int_equal(topology.overused_edges, 0);
+        assert_int_equal(topology.misoriented_edges, 0);
+        assert_int_equal(topology.degenerate_faces, 0);
+        assert_int_equal(topology.component_count, 1);
+        assert_int_equal(topology.euler_number, 1); // a disc
+        mesh_free(mesh);
+        height_field_free(world);
+    }
+}
+
+// The least of the cells a side of the tiles that touch a tile, itself among them.
+static int coarsest_around(const HeightField *world, int column, int row)
+{
+    int least = DRAWN.cells;
+    for (int k = 0; k < 9; k++) {
+        int cells = tile_mesh_cells(world, &DRAWN, &NEAR, column + k % 3 - 1, row + k / 3 - 1);
+        least = cells < least ? cells : least;
+    }
+    return least;
+}
+
+// Every sample of a tile that is made by itself is a vertex, to the bit: inside the tile, and at
+// its border where no coarser tile is beside it.
+static void drawn_tiles_are_the_tiles(void **state)
+{
+    (void)state;
+    Error e = {0};
+    HeightField *world = make_world(false);
+    Mesh *mesh = draw(world, &NEAR, 2);
+    uint32_t *order = sort_vertices(mesh);
+    int64_t checked = 0, sizes = 0;
+    Run run = run_with(1);
+    for (int t = 0; t < 64; t++) {
+        int column = t % 8, row = t / 8;
+        TileGrid grid = DRAWN;
+        grid.cells = tile_mesh_cells(world, &DRAWN, &NEAR, column, row);
+        if (grid.cells < WORLD / 8) {
+            continue;
+        }
+        HeightField *tile = tile_land(world, &grid, column, row, &run, &e);
+        assert_non_null(tile);
+        sizes |= grid.cells;
+        int margin = coarsest_around(world, column, row) < grid.cells ? 1 : 0;
+        for (int r = margin; r <= grid.cells - margin; r++) {
+            for (int c = margin; c <= grid.cells - margin; c++, checked++) {
+                Vec3 at[] = {vec3(tile->origin.x + (float)c * tile->cell.x,
+                                  tile->height[r * tile->columns + c],
+                                  tile->origin.y + (float)r * tile->cell.y)};
+                int64_t low = 0, high = mesh->vertex_count; // the first that is not before it
+                while (low < high) {
+                    int64_t middle = (low + high) / 2;
+                    bool before = memcmp(&mesh->position[order[middle]], at, sizeof *at) < 0;
+                    low = before ? middle + 1 : low;
+                    high = before ? high : middle;
+                }
+                assert_true(low < mesh->vertex_count);
+                assert_memory_equal(&mesh->position[order[low]], at, sizeof *at);
+            }
+        }
+        height_field_free(tile);
+    }
+    print_message("%d samples, cells a side: %d\n", (int)checked, (int)sizes);
+    assert_true(sizes == (8 | 16 | 32 | 64));
+    free(order);
+    mesh_free(mesh);
+    height_field_free(world);
+}
+
+// Cells grow with the distance, as the view allows, and the land sinks by the square of it.
+static void far_land_is_coarse_and_sinks(void **state)
+{
+    (void)state;
+    HeightField *world = make_world(false);
+    TileView curved = NEAR;
+    curved.curve = 1.0f / (2.0f * 6371000.0f);
+    Mesh *flat = draw(world, &NEAR, 2), *bent = draw(world, &curved, 3);
+    float most = 0.0f;
+    for (int64_t i = 0; i < flat->vertex_count; i++) {
+        Vec3 p = flat->position[i], q = bent->position[i];
+        float dx = p.x - EYE.x, dz = p.z - EYE.z, sinks = (dx * dx + dz * dz) / 12742000.0f;
+        assert_true(p.x == q.x && p.z == q.z && fabsf(p.y - q.y - sinks) < 2e-5f);
+        most = sinks > most ? sinks : most;
+    }
+    assert_true(most > 0.2f);
+    for (int row = 0; row < 8; row++) {
+        float z = -512.0f + 128.0f * (float)row;
+        float dz = EYE.z < z ? z - EYE.z : EYE.z > z + 128.0f ? EYE.z - z - 128.0f : 0.0f;
+        int cells = tile_mesh_cells(world, &DRAWN, &NEAR, 4, row); // below or beside the eye
+        float cell = 128.0f / (float)cells;
+        assert_true(cells == 64 || cell <= NEAR.cell * (dz + 60.0f));
+        assert_true(cells == 2 || 2.0f * cell > NEAR.cell * dz);
+    }
+    mesh_free(flat);
+    mesh_free(bent);
+    height_field_free(world);
+}
+
+static void threads_change_no_bit_of_the_mesh(void **state)
+{
+    (void)state;
+    HeightField *world = make_world(false);
+    Mesh *one = draw(world, &NEAR, 1), *three = draw(world, &NEAR, 3);
+    assert_int_equal(one->vertex_count, three->vertex_count);
+    assert_int_equal(one->face_count, three->face_count);
+    size_t count = (size_t)one->vertex_count;
+    assert_memory_equal(one->position, three->position, sizeof(Vec3) * count);
+    assert_memory_equal(one->normal, three->normal, sizeof(Vec3) * count);
+    assert_memory_equal(one->index, three->index, sizeof(uint32_t) * 3 * (size_t)one->face_count);
+    mesh_free(one);
+    mesh_free(three);
+    height_field_free(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -183,6 +392,10 @@ int main(void)
         cmocka_unit_test(detail_is_land),
         cmocka_unit_test(flat_land_stays_flat),
         cmocka_unit_test(wrong_tiles_are_refused),
+        cmocka_unit_test(tiles_meet_without_cracks),
+        cmocka_unit_test(drawn_tiles_are_the_tiles),
+        cmocka_unit_test(far_land_is_coarse_and_sinks),
+        cmocka_unit_test(threads_change_no_bit_of_the_mesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
