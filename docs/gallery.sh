@@ -251,6 +251,7 @@ still olive-trunk olive-trunk
 still pine-rock pine-rock
 still leaves-sun leaves-sun
 still willow-lake willow-lake
+still pond pond
 still cherry-blossom cherry-blossom
 still beech-wood beech-wood
 still birch-grove birch-grove
@@ -325,6 +326,7 @@ walls="$walls, {shape: box, size: [0.2, 0.9, 7.4], position: [-3.6, 0, 0]}, {sha
 movie frost-bubble-turn frost-bubble 60 crop=438:246:21:24 "--spin --turns 1 --grow 0.16:0.6 --fps 12" --size 480x270 \
     --samples 16 --set "objects.wood.shape.envelope=[$walls]"
 still coast coast
+still waterfall waterfall
 still karst karst
 still meander meander
 still delta delta

@@ -7,6 +7,7 @@
 #include "land/height_maps.h"
 #include "land/height_mesh.h"
 #include "mesh/geometry.h"
+#include "objects/terrain/spray.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -417,6 +418,60 @@ static void strands_fall_into_the_pool(void **state)
     drop_valley(&v);
 }
 
+// Spray holds what leaves the foot until it rains out, as the closed form tells, beside its veil, and
+// hangs over the pool, no higher than the way of the fastest puff.
+static void feet_throw_up_spray(void **state)
+{
+    (void)state;
+    enum { STRANDS = 4000 };
+    FallSpray fall = {.way = {0, 0, 1},
+                      .across = {1, 0, 0},
+                      .half = 4.0f,
+                      .height = 20.0f,
+                      .cover = 0.5f,
+                      .strands = STRANDS,
+                      .key = 9};
+    Vec3 place[2] = {{0, 20, 0}, {0, 0, 3}};
+    SprayParcels spray = {0};
+    double foot = 0.0, veil = 0.0;
+    for (int i = 0; i < STRANDS; i++) {
+        int64_t first = spray.count;
+        assert_true(terrain_spray_strand(&fall, i, place, 2, &spray, NULL));
+        assert_int_equal(spray.count - first, 9);
+        for (int64_t k = first; k < spray.count; k++) {
+            const SprayParcel *parcel = &spray.parcel[k];
+            *(k - first < 6 ? &foot : &veil) += (double)parcel->content;
+            assert_true(parcel->center.y > 0.0f && parcel->center.y <= 20.0f);
+            assert_true(fabsf(parcel->center.x) < 20.0f && parcel->radius < 8.0f);
+        }
+    }
+    double wanted = (double)terrain_fall_content(&fall);
+    assert_true(fabs(foot - wanted) < 0.03 * wanted);
+    assert_true(veil > 0.0 && veil < foot);
+    free(spray.parcel);
+}
+
+// In the scene, and so is the water that it comes from.
+static void falls_carry_their_spray(void **state)
+{
+    (void)state;
+    Valley v = make_valley(stepped);
+    v.params.rivers.runoff = 20.0f;
+    lay(&v);
+    int64_t lip = -1;
+    assert_int_equal(count_falls(&v, &lip), 1);
+    Geometry geometry = fall_parts(&v, 1);
+    const SprayParcels *spray = geometry.part[0].spray;
+    assert_true(spray && spray->count > 1000);
+    float pool = v.terrain.water->position[v.terrain.water->parent[lip]].y;
+    for (int64_t i = 0; i < spray->count; i++) {
+        assert_true(spray->parcel[i].center.y >= pool);
+        assert_true(spray->parcel[i].content >= 0.0f && spray->parcel[i].radius > 0.0f);
+    }
+    geometry_clear(&geometry);
+    drop_valley(&v);
+}
+
 static void falls_have_the_same_bits_for_any_threads(void **state)
 {
     (void)state;
@@ -510,6 +565,8 @@ int main(void)
         cmocka_unit_test(a_sheet_is_a_parabola),
         cmocka_unit_test(a_ledge_throws_water_out_again),
         cmocka_unit_test(strands_fall_into_the_pool),
+        cmocka_unit_test(feet_throw_up_spray),
+        cmocka_unit_test(falls_carry_their_spray),
         cmocka_unit_test(falls_have_the_same_bits_for_any_threads),
         cmocka_unit_test(water_depth_is_the_level_less_the_bed),
         cmocka_unit_test(a_lake_has_one_level),

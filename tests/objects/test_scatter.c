@@ -244,6 +244,39 @@ static void keeps_to_its_side_of_the_shore(void **state)
     }
 }
 
+static bool is_below_5(const void *user, Vec3 p)
+{
+    (void)user;
+    return p.y < 5.0f;
+}
+
+// Over a sloping bed, what floats is level with the water, as far as the bed is as deep as altitude
+// asks for.
+static void afloat_is_on_the_surface(void **state)
+{
+    (void)state;
+    float slope = 1.0f;
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 100;
+    scatter.in_water = scatter.afloat = true;
+    scatter.altitude[0] = 2.0f;
+    scatter.align = 1.0f;
+    Run run = run_default();
+    Recipe recipe = {.seed = 4, .run = &run};
+    Flood flood = {is_below_5, NULL};
+    Surroundings around = {.flood = &flood, .land = {slope_height, &slope}};
+    ScatterPlaces places = places_of(&scatter, &recipe, &around);
+    assert_int_equal(places.count, 100);
+    for (int64_t i = 0; i < places.count; i++) {
+        Vec3 p = foot(&places.place[i]);
+        float bed = slope_height(&slope, p.x, p.z);
+        assert_true(fabsf(p.y - 5.0f) < 1e-4f && bed >= 2.0f && bed < 5.0f);
+        assert_true(places.place[i].m[0][1] == 0.0f && places.place[i].m[2][1] == 0.0f); // upright
+    }
+    scatter_places_free(&places);
+}
+
 static void land_of_one_slope_meets_its_range_alone(void **state)
 {
     (void)state;
@@ -607,6 +640,7 @@ int main(void)
         cmocka_unit_test(fills_a_small_patch_of_a_wide_face),
         cmocka_unit_test(clumps),
         cmocka_unit_test(keeps_to_its_side_of_the_shore),
+        cmocka_unit_test(afloat_is_on_the_surface),
         cmocka_unit_test(land_of_one_slope_meets_its_range_alone),
         cmocka_unit_test(copies_become_fewer_beyond_a_range),
         cmocka_unit_test(copies_every_thing),

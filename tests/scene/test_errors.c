@@ -86,6 +86,14 @@ static const Case scenes[] = {
      ":2:28: clouds.0.over: there is no object 'b'; did you mean 'a'?"},
     {TREE "clouds: [{kind: fog, over: a}]\n",
      ":2:28: clouds.0.over: object 'a' is of the kind tree; it must be a terrain"},
+    {"objects: [{name: a, scatter: {afloat: true, things: [{stone: {}}]}}]\n",
+     ":1:39: objects.a.scatter.afloat is true; then in_water must be true, too"},
+    {TREE "clouds: [{kind: spray, over: a}]\n",
+     ":2:30: clouds.0.over: object 'a' is of the kind tree; it must be a terrain with waterfalls or "
+     "a sea with a bed"},
+    {TREE "clouds: [{kind: spray}]\n",
+     ":2:10: clouds.0: spray needs the key 'over': the terrain with waterfalls, or the sea with a "
+     "bed, that throws it up"},
     {TREE "sky: {kind: constant, turbidity: 3}\n",
      ":2:23: key 'turbidity' does not apply to sky of kind 'constant'; known: kind, color, "
      "strength, visible, haze_distance"},

@@ -1,4 +1,5 @@
-// Fog over terrains: its floor is that of the land that has grown, also after changes.
+// Clouds over objects: the floor of fog is that of the land that has grown, also after changes; spray
+// is that of the falls.
 #include "scene_fixture.h"
 
 #include "land/cold_pool.h"
@@ -77,6 +78,41 @@ static void fog_needs_land(void **state)
     scene_free(scene);
 }
 
+static void spray_needs_falls(void **state)
+{
+    Run run = run_default();
+    Error e = {0};
+    Scene *scene = fixture_read(*state, "clouds: [{kind: spray, over: land}]\n" LAND);
+    assert_null(scene_build(scene, &run, NULL, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    assert_non_null(strstr(e.message, "object 'land' throws up no spray"));
+    scene_free(scene);
+}
+
+// The cloud gathers what the parts of its object carry.
+static void spray_is_that_of_the_falls(void **state)
+{
+    Run run = run_default();
+    Error e = {0};
+    Scene *scene = fixture_read(
+        *state, "seed: 5\n"
+                "clouds: [{kind: spray, over: land}]\n"
+                "objects: [{name: land, terrain: {size: 600, relief: 170, resolution: 512, "
+                "rivers: {count: 14, outlets: 1, side: south, gradient: 0.75, water: 0.01, "
+                "runoff: 16}, terraces: {count: 6, strength: 0.95, sheer: 1}}}]\n");
+    World *world = scene_build(scene, &run, NULL, &e);
+    assert_non_null(world);
+    int64_t parcels = 0;
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        const SprayParcels *spray = world->geometry.part[i].spray;
+        parcels += spray ? spray->count : 0;
+    }
+    assert_true(parcels > 0);
+    assert_int_equal(world->cloud[0].spray->count, parcels);
+    world_free(world);
+    scene_free(scene);
+}
+
 // The fog's grid is as wide as the terrain and its mirror image: higher land, a higher grid.
 static void estimates_know_the_terrain(void **state)
 {
@@ -96,6 +132,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(fog_lies_on_the_land_that_has_grown, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(fog_needs_land, fixture_set_up, fixture_tear_down),
+        cmocka_unit_test_setup_teardown(spray_needs_falls, fixture_set_up, fixture_tear_down),
+        cmocka_unit_test_setup_teardown(spray_is_that_of_the_falls, fixture_set_up,
+                                        fixture_tear_down),
         cmocka_unit_test_setup_teardown(estimates_know_the_terrain, fixture_set_up,
                                         fixture_tear_down),
     };

@@ -2,6 +2,7 @@
 #include "objects/kind.h"
 #include "land/height_raster.h"
 #include "objects/sea/sea.h"
+#include "objects/sea/spray.h"
 #include "render/material/material.h"
 #include "shape/envelope.h"
 
@@ -41,9 +42,14 @@ bool sea_geometry(const void *given, const Grown *grown, const Placing *placing,
     (void)grown;
     const SeaParams *params = given;
     Waves *waves = make_waves(params, placing->recipe, e);
-    Mesh *mesh =
-        waves ? sea_mesh(params, placing->around.eye, waves, placing->recipe->run, e) : NULL;
-    return mesh && placing_add(placing, (Part){.mesh = mesh}, 0, e);
+    SprayParcels *spray = waves ? sea_spray(params, waves, placing->recipe->seed, e) : NULL;
+    if (!spray) {
+        waves_free(waves);
+        return false;
+    }
+    Part part = {.mesh = sea_mesh(params, placing->around.eye, waves, placing->recipe->run, e),
+                 .spray = spray};
+    return placing_add(placing, part, 0, e);
 }
 
 // The calm surface.
@@ -118,4 +124,5 @@ const Kind kind_sea = {
     .needs = needs,
     .describe = describe,
     .measure = sea_measure,
+    .sprays = true,
     .geometry = sea_geometry};

@@ -78,10 +78,10 @@ int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *pla
 // ---- strands
 
 enum {
-    ROWS = 40,   // of a strand
+    ROWS = 96,   // of a strand
     STEPS = 160, // of its path
     ACROSS = 72, // strands of a layer ...
-    MANY = 64,   // ... of at most so many falls; of more falls fewer, but never fewer than
+    MANY = 26,   // ... of at most so many falls; of more falls fewer, but never fewer than
     FEWEST = 12,
     LAYERS = 4,
     STRANDS = ACROSS * LAYERS
@@ -158,6 +158,17 @@ static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS])
     return path.step > 0.0f ? terrain_fall_path(&path, start, velocity, place, STEPS) : 0;
 }
 
+// Below the lip a strand parts into clots, evenly spaced in the time of its fall, and the longer it
+// falls, the wider the gaps between them: its width at a share of the height, relative to the mean.
+static float clots(const FallMesher *f, int strand, float share)
+{
+    const float often = 16.0f; // clots in the time of the fall
+    uint64_t seed = random_key(f->terrain->water->id[f->lip], STRANDS + 2);
+    float along = often * sqrtf(share), apart = smoothstepf(0.1f, 0.7f, share);
+    float noise = noise_plane_fractal(along, 7.3f * (float)strand, 3, seed);
+    return clampf(1.0f + lerpf(3.2f, 1.6f, f->cover) * apart * noise, 0.0f, 2.5f);
+}
+
 // Half the width of a strand where it has fallen by this share: whole at the lip, torn below.
 static float strand_half(const FallMesher *f, int strand, float share)
 {
@@ -168,7 +179,8 @@ static float strand_half(const FallMesher *f, int strand, float share)
     float own = lerpf(0.25f, 1.9f, wide * wide);
     own *= tongue(f, strand_side(f, strand));
     float grown = smoothstepf(from, from + 0.12f, share + (strand < f->columns ? 0.12f : 0.0f));
-    return 0.5f * spacing * torn * own * grown; // at most about 1.5 spacings
+    own = fminf(own * clots(f, strand, share), 4.2f); // no wider than the widest whole one
+    return 0.5f * spacing * torn * own * grown;       // at most about 1.5 spacings
 }
 
 static void add_strand_row(FallMesher *f, Vec3 p, Vec3 along, float half, float foam)
