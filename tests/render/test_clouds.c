@@ -565,7 +565,7 @@ static int flood(bool filled[MAP * MAP], int start)
     return count;
 }
 
-// Places of a level section that hold droplets, and how many of them the largest piece has.
+// Places of a level section that hold droplets or ice, and how many of them the largest piece has.
 static void section(const CloudSet *clouds, const Cloud *cloud, float share, int *all, int *largest)
 {
     bool filled[MAP * MAP];
@@ -574,7 +574,7 @@ static void section(const CloudSet *clouds, const Cloud *cloud, float share, int
     for (int i = 0; i < MAP * MAP; i++) {
         Vec3 p = vec3(side * (float)(i % MAP - MAP / 2), cloud->base + share * cloud->thickness,
                       side * (float)(i / MAP - MAP / 2));
-        filled[i] = clouds_extinction(clouds, p) > 0.1f * cloud->extinction;
+        filled[i] = clouds_extinction(clouds, p) > 0.003f; // what shows over a kilometre
         *all += filled[i];
     }
     for (int i = 0; i < MAP * MAP; i++) {

@@ -21,7 +21,7 @@ Cloud cloud_default(CloudKind kind)
                        .thickness = 10500.0f,
                        .cover = 1.0f,
                        .size = 5000.0f,
-                       .extinction = 0.03f,
+                       .extinction = 0.1f,
                        .softness = 0.5f};
     case CLOUD_FOG:
         return (Cloud){.kind = kind,

@@ -19,9 +19,9 @@ typedef struct Extremes {
     float low, high; // shares of the greatest extinction
 } Extremes;
 
-// Depth inside the coarse form, m, and softness at a place.
+// Depth inside the coarse form, m, softness, and share of the greatest extinction at a place.
 typedef struct Corner {
-    float inside, softness;
+    float inside, softness, share;
 } Corner;
 
 typedef struct Box {
@@ -38,10 +38,12 @@ static Corner corner_at_node(const CloudGrid *g, int x, int y, int z)
     const int wrap = NODES_ACROSS - 1;
     bool inside = y < g->count[1] && (g->repeats || (x < g->count[0] && z < g->count[2]));
     if (!inside) { // lookups find nothing between the last nodes and these
-        return (Corner){(float)FARTHEST * g->voxel / DISTANCE_STEPS, 0.0f};
+        return (Corner){(float)FARTHEST * g->voxel / DISTANCE_STEPS, 0.0f, 0.0f};
     }
-    CloudNode n = g->node[cloud_grid_node(g, x & wrap, y, z & wrap)];
-    return (Corner){(float)n.distance * g->voxel / DISTANCE_STEPS, (float)n.softness / SOFTEST};
+    int64_t at = cloud_grid_node(g, x & wrap, y, z & wrap);
+    CloudNode n = g->node[at];
+    return (Corner){(float)n.distance * g->voxel / DISTANCE_STEPS, (float)n.softness / SOFTEST,
+                    g->ice ? (float)g->ice[at] / ICE_STEPS : 1.0f};
 }
 
 static bool may_hold_droplets(const CloudGrid *g, int cx, int cy, int cz)
@@ -62,7 +64,8 @@ static bool may_hold_droplets(const CloudGrid *g, int cx, int cy, int cz)
 
 static Corner mix(Corner a, Corner b, float t)
 {
-    return (Corner){lerpf(a.inside, b.inside, t), lerpf(a.softness, b.softness, t)};
+    return (Corner){lerpf(a.inside, b.inside, t), lerpf(a.softness, b.softness, t),
+                    lerpf(a.share, b.share, t)};
 }
 
 typedef Corner Corners[CORNERS][CORNERS][CORNERS]; // z, x, y
@@ -141,19 +144,20 @@ static Extremes in_box(const CloudGrid *g, const Box *box, DetailRange small)
     float scale = 1.0f / g->rough.period[0], half = 0.5f * box->side * scale;
     Vec3 middle = vec3_scale(cloud_grid_turned(box->middle), scale);
     DetailRange large = detail_range(g->detail, middle, vec3_scale(cloud_grid_turned_cube, half));
-    Extremes share = {1.0f, 0.0f}, softness = {1.0f, 0.0f};
+    Extremes share = {1.0f, 0.0f}, softness = {1.0f, 0.0f}, ice = {1.0f, 0.0f};
     for (int i = 0; i < 8; i++) {
         Corner c = box->corner[i];
         Extremes e = share_at(g, c, large, small);
         share = (Extremes){smaller(share.low, e.low), larger(share.high, e.high)};
         softness = (Extremes){smaller(softness.low, c.softness), larger(softness.high, c.softness)};
+        ice = (Extremes){smaller(ice.low, c.share), larger(ice.high, c.share)};
     }
     float smooth = 1.0f + large.low.wisp;
     float torn = 1.0f + large.high.wisp + RAGGED_SMALL * (1.0f + small.high.wisp);
     Extremes gain = gain_in(g, box);
-    return (Extremes){density_at(share.low, softness.high) * gain.low *
+    return (Extremes){density_at(share.low, softness.high) * gain.low * ice.low *
                           raised_at(&g->rough, box->below, torn),
-                      density_at(share.high, softness.low) * gain.high *
+                      density_at(share.high, softness.low) * gain.high * ice.high *
                           raised_at(&g->rough, box->above, smooth)};
 }
 

@@ -1,7 +1,9 @@
 #include "render/cloud/cloud_fill.h"
 
+#include "base/random.h"
+#include "render/cloud/anvil.h"
 #include "render/cloud/heaps.h"
-#include "render/cloud/puffs.h"
+#include "render/cloud/storm.h"
 
 #include <stdlib.h>
 
@@ -72,6 +74,31 @@ static void fill_with_puffs(CloudGrid *g, const Puffs *puffs, const Run *run)
     }
 }
 
+// Unites the anvil with the towers; where it is, and in their upper part, droplets are frozen.
+static void add_anvil(CloudGrid *g, const Cloud *cloud, uint64_t key, const Run *run)
+{
+    Anvil anvil = anvil_of(cloud, g->detail, key);
+    float margin = reach_of(g);
+#pragma omp parallel for schedule(dynamic, 8) num_threads(run->threads)
+    for (int z = 0; z < g->count[2]; z++) {
+        for (int x = 0; x < g->count[0]; x++) {
+            AnvilColumn c = anvil_column(&anvil, g->low.x + g->voxel * (float)x,
+                                         g->low.z + g->voxel * (float)z);
+            int64_t first = cloud_grid_node(g, x, 0, z);
+            for (int y = 0; y < g->count[1]; y++) {
+                float altitude = g->low.y + g->voxel * (float)y, deep = anvil_depth(&c, altitude);
+                CloudNode *node = &g->node[first + y];
+                float share = storm_freezing(&anvil.frame, altitude);
+                if (deep > -margin && in_steps(g, deep) > node->distance) {
+                    *node = (CloudNode){in_steps(g, deep), in_softness(c.softness)};
+                    share = anvil_share(&anvil, &c, altitude);
+                }
+                g->ice[first + y] = (uint8_t)lrintf(clampf(share, 0.0f, 1.0f) * ICE_STEPS);
+            }
+        }
+    }
+}
+
 // Softer and firmer patches: eddies bring dry air to some places of a border and not to others.
 static void add_patches(CloudGrid *g, const Cloud *cloud, const Run *run)
 {
@@ -101,10 +128,13 @@ static bool fill_with_heaps(CloudGrid *g, const Cloud *cloud, uint64_t key, cons
 {
     Puffs puffs = {.floor = cloud->base, .smallest = 0.8f * g->voxel};
     bool done = cloud->kind == CLOUD_STORM
-                    ? puffs_grow_storm(&puffs, cloud, key, e)
+                    ? storm_grow(&puffs, cloud, key, e)
                     : heaps_grow(&puffs, cloud, g->voxel * NODES_ACROSS, key, e);
     if (done) {
         fill_with_puffs(g, &puffs, run);
+        if (cloud->kind == CLOUD_STORM) {
+            add_anvil(g, cloud, random_key(key, 0xa11), run);
+        }
         add_patches(g, cloud, run);
     }
     puffs_clear(&puffs);

@@ -35,12 +35,12 @@ static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
     g->repeats = cloud->kind != CLOUD_STORM;
     g->fog = cloud->kind == CLOUD_FOG;
     if (!g->repeats) {
-        across = 9.0f * cloud->size;
+        across = 7.0f * cloud->size;
     }
     g->voxel = across / NODES_ACROSS;
     g->low = vec3(0.0f, cloud->base - margin, 0.0f);
     if (!g->repeats) { // most of the anvil lies downwind
-        float wind = cloud->wind * RADIANS_PER_DEGREE, ahead = 1.2f * cloud->size - 0.5f * across;
+        float wind = cloud->wind * RADIANS_PER_DEGREE, ahead = 1.25f * cloud->size - 0.5f * across;
         g->low.x = cloud->center_x - 0.5f * across + (ahead + 0.5f * across) * sinf(wind);
         g->low.z = cloud->center_z - 0.5f * across + (ahead + 0.5f * across) * cosf(wind);
     }
@@ -112,7 +112,8 @@ int64_t cloud_grid_bytes(const Cloud *cloud)
     }
     CloudGrid grid;
     describe(&grid, cloud, NULL);
-    return node_count(&grid) * (int64_t)sizeof *grid.node +
+    int64_t ice = cloud->kind == CLOUD_STORM ? (int64_t)sizeof *grid.ice : 0;
+    return node_count(&grid) * ((int64_t)sizeof *grid.node + ice) +
            cloud_grid_cells(&grid) * (int64_t)sizeof *grid.cell +
            cloud_grid_cells(&grid) / 3 * (grid.pooled ? 2 : 1) * (int64_t)sizeof *grid.part *
                PARTS * PARTS * PARTS;
@@ -132,7 +133,10 @@ bool cloud_grid_new(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail,
     }
     g->node = memory_alloc(nodes, sizeof *g->node, e);
     g->cell = memory_alloc(cloud_grid_cells(g), sizeof *g->cell, e);
-    if (!g->node || !g->cell) {
+    if (cloud->kind == CLOUD_STORM) {
+        g->ice = memory_alloc_zero(nodes, sizeof *g->ice, e);
+    }
+    if (!g->node || !g->cell || (cloud->kind == CLOUD_STORM && !g->ice)) {
         return false;
     }
     for (int64_t i = 0; i < nodes; i++) {
@@ -144,11 +148,13 @@ bool cloud_grid_new(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail,
 void cloud_grid_clear(CloudGrid *g)
 {
     free(g->node);
+    free(g->ice);
     free(g->cell);
     free(g->part);
     sparse_volume_free(g->voxels);
     g->voxels = NULL;
     g->node = NULL;
+    g->ice = NULL;
     g->cell = NULL;
     g->part = NULL;
 }
@@ -158,16 +164,27 @@ void cloud_grid_clear(CloudGrid *g)
 // The coarse form at a place.
 typedef struct Coarse {
     float inside, softness; // m
+    float share;            // of the greatest extinction, where ice takes the droplets' place
 } Coarse;
 
 static Coarse between(CloudNode a, CloudNode b, float t)
 {
-    return (Coarse){lerpf(a.distance, b.distance, t), lerpf(a.softness, b.softness, t)};
+    return (Coarse){lerpf(a.distance, b.distance, t), lerpf(a.softness, b.softness, t), 1.0f};
 }
 
 static Coarse mix(Coarse a, Coarse b, float t)
 {
-    return (Coarse){lerpf(a.inside, b.inside, t), lerpf(a.softness, b.softness, t)};
+    return (Coarse){lerpf(a.inside, b.inside, t), lerpf(a.softness, b.softness, t), 1.0f};
+}
+
+// By trilinear interpolation between nodes, column by column.
+static float ice_at(const int64_t column[4], const uint8_t *ice, float u, float v, float w)
+{
+    float at[4];
+    for (int i = 0; i < 4; i++) {
+        at[i] = lerpf(ice[column[i]], ice[column[i] + 1], v);
+    }
+    return lerpf(lerpf(at[0], at[1], u), lerpf(at[2], at[3], u), w) / ICE_STEPS;
 }
 
 // By trilinear interpolation; p in voxels from node 0.
@@ -176,21 +193,24 @@ static Coarse coarse_at(const CloudGrid *g, Vec3 p)
     float fx = floorf(p.x), fy = floorf(p.y), fz = floorf(p.z);
     int x = (int)fx, y = (int)fy, z = (int)fz;
     if (y < 0 || y + 1 >= g->count[1]) {
-        return (Coarse){-INFINITY, 0.0f};
+        return (Coarse){-INFINITY, 0.0f, 0.0f};
     }
     if (!g->repeats && (x < 0 || z < 0 || x + 1 >= g->count[0] || z + 1 >= g->count[2])) {
-        return (Coarse){-INFINITY, 0.0f};
+        return (Coarse){-INFINITY, 0.0f, 0.0f};
     }
     const int wrap = NODES_ACROSS - 1;
-    const CloudNode *a = g->node + cloud_grid_node(g, x & wrap, y, z & wrap);
-    const CloudNode *b = g->node + cloud_grid_node(g, (x + 1) & wrap, y, z & wrap);
-    const CloudNode *c = g->node + cloud_grid_node(g, x & wrap, y, (z + 1) & wrap);
-    const CloudNode *d = g->node + cloud_grid_node(g, (x + 1) & wrap, y, (z + 1) & wrap);
+    const int64_t column[4] = {cloud_grid_node(g, x & wrap, y, z & wrap),
+                               cloud_grid_node(g, (x + 1) & wrap, y, z & wrap),
+                               cloud_grid_node(g, x & wrap, y, (z + 1) & wrap),
+                               cloud_grid_node(g, (x + 1) & wrap, y, (z + 1) & wrap)};
+    const CloudNode *a = g->node + column[0], *b = g->node + column[1];
+    const CloudNode *c = g->node + column[2], *d = g->node + column[3];
     float u = p.x - fx, v = p.y - fy, w = p.z - fz;
     Coarse near = mix(between(a[0], a[1], v), between(b[0], b[1], v), u);
     Coarse far = mix(between(c[0], c[1], v), between(d[0], d[1], v), u);
     Coarse sum = mix(near, far, w);
-    return (Coarse){sum.inside * g->voxel / DISTANCE_STEPS, sum.softness / SOFTEST};
+    return (Coarse){sum.inside * g->voxel / DISTANCE_STEPS, sum.softness / SOFTEST,
+                    g->ice ? ice_at(column, g->ice, u, v, w) : 1.0f};
 }
 
 const Vec3 cloud_grid_turned_cube = {1.64f, 1.72f, 1.4f};
@@ -201,46 +221,45 @@ Vec3 cloud_grid_turned(Vec3 p)
                 -0.8f * p.y + 0.6f * p.z);
 }
 
-// Extinction deep m inside the coarse form, where detail has moved the border: inside and ragged (0
-// .. 2 + 2 RAGGED_SMALL) are what it makes.
-static float profile(const CloudGrid *g, float above, float deep, float inside, float softness,
-                     float ragged)
+// Extinction where detail has moved the border: inside and ragged (0 .. 2 + 2 RAGGED_SMALL) are
+// what it makes.
+static float profile(const CloudGrid *g, float above, const Coarse *c, float inside, float ragged)
 {
     const Roughness *r = &g->rough;
-    float share = unit_clamp(inside / edge_at(r, softness));
-    return g->extinction * gain_at(g, above, deep) * raised_at(r, above, ragged) *
-           density_at(share, softness);
+    float share = unit_clamp(inside / edge_at(r, c->softness));
+    return g->extinction * c->share * gain_at(g, above, c->inside) * raised_at(r, above, ragged) *
+           density_at(share, c->softness);
 }
 
 // A lookup in stages, each of which leaves less of the detail open.
 typedef struct Lookup {
-    float above, deep;      // m over the base, and inside the coarse form
-    float inside, softness; // m: of the border as far as it is known
-    float open;             // m: farthest that what is not looked up yet moves it
+    Coarse coarse;
+    float above;  // m over the base
+    float inside; // m: of the border as far as it is known
+    float open;   // m: farthest that what is not looked up yet moves it
     float ragged;
 } Lookup;
 
 static Lookup lookup_begin(const CloudGrid *g, Vec3 p)
 {
     Coarse c = coarse_at(g, vec3_scale(vec3_sub(p, g->low), 1.0f / g->voxel));
-    return (Lookup){.above = p.y - g->base,
-                    .deep = c.inside,
+    return (Lookup){.coarse = c,
+                    .above = p.y - g->base,
                     .inside = c.inside,
-                    .softness = c.softness,
                     .open = cloud_grid_reach(g, c.softness)};
 }
 
 // Whether the border's detail makes no difference to the extinction.
 static bool decided(const CloudGrid *g, const Lookup *l)
 {
-    bool inner = l->inside >= edge_at(&g->rough, l->softness) + l->open;
+    bool inner = l->inside >= edge_at(&g->rough, l->coarse.softness) + l->open;
     return l->inside <= -l->open || (inner && l->above >= RAGGED_UP_TO * g->rough.base);
 }
 
 static void look_up_large(const CloudGrid *g, Vec3 q, Lookup *l)
 {
     const Roughness *r = &g->rough;
-    float s = l->softness, billows = billows_at(s);
+    float s = l->coarse.softness, billows = billows_at(s);
     Detail large = detail_at(g->detail, vec3_scale(q, 1.0f / r->period[0]));
     l->inside += billows * r->billow[0] * large.billow + s * r->wisp[0] * large.wisp;
     l->open = billows * r->billow[1] + s * r->wisp[1];
@@ -250,7 +269,7 @@ static void look_up_large(const CloudGrid *g, Vec3 q, Lookup *l)
 static void look_up_small(const CloudGrid *g, Vec3 q, Lookup *l)
 {
     const Roughness *r = &g->rough;
-    float s = l->softness;
+    float s = l->coarse.softness;
     if (l->inside > -l->open && l->inside < edge_at(r, s) + l->open) {
         Detail small = detail_at(g->detail, vec3_scale(q, 1.0f / r->period[1]));
         l->inside += billows_at(s) * r->billow[1] * small.billow + s * r->wisp[1] * small.wisp;
@@ -275,20 +294,20 @@ float cloud_grid_extinction(const CloudGrid *g, Vec3 p, bool fine)
             look_up_small(g, q, &l);
         }
     }
-    return profile(g, l.above, l.deep, l.inside, l.softness, l.ragged);
+    return profile(g, l.above, &l.coarse, l.inside, l.ragged);
 }
 
 // 1 or 0 where what is open cannot change it, else -1. gain: greatest extinction at the altitude.
 static int told(const CloudGrid *g, const Lookup *l, float gain, float level)
 {
-    float scale = 1.0f / edge_at(&g->rough, l->softness);
+    float scale = 1.0f / edge_at(&g->rough, l->coarse.softness);
     float high = unit_clamp((l->inside + l->open) * scale);
     float low = unit_clamp((l->inside - l->open) * scale);
-    if (gain * density_at(high, l->softness) <= level) {
+    if (gain * density_at(high, l->coarse.softness) <= level) {
         return 0;
     }
     bool level_base = l->above >= RAGGED_UP_TO * g->rough.base;
-    return level_base && gain * density_at(low, l->softness) > level ? 1 : -1;
+    return level_base && gain * density_at(low, l->coarse.softness) > level ? 1 : -1;
 }
 
 bool cloud_grid_exceeds(const CloudGrid *g, Vec3 p, bool fine, float level)
@@ -300,7 +319,7 @@ bool cloud_grid_exceeds(const CloudGrid *g, Vec3 p, bool fine, float level)
         return false;
     }
     Lookup l = lookup_begin(g, p);
-    float gain = g->extinction * gain_at(g, l.above, l.deep);
+    float gain = g->extinction * l.coarse.share * gain_at(g, l.above, l.coarse.inside);
     int known = told(g, &l, gain, level);
     if (known < 0 && !decided(g, &l)) {
         Vec3 q = cloud_grid_turned(p);
@@ -311,7 +330,7 @@ bool cloud_grid_exceeds(const CloudGrid *g, Vec3 p, bool fine, float level)
             look_up_small(g, q, &l);
         }
     }
-    return known >= 0 ? known : profile(g, l.above, l.deep, l.inside, l.softness, l.ragged) > level;
+    return known >= 0 ? known : profile(g, l.above, &l.coarse, l.inside, l.ragged) > level;
 }
 
 float cloud_grid_smooth(const CloudGrid *g, Vec3 p)
@@ -327,5 +346,5 @@ float cloud_grid_smooth(const CloudGrid *g, Vec3 p)
     }
     Detail large =
         detail_at(g->detail, vec3_scale(cloud_grid_turned(p), 1.0f / g->rough.period[0]));
-    return profile(g, above, c.inside, c.inside + reach * large.billow, s, 1.4f);
+    return profile(g, above, &c, c.inside + reach * large.billow, 1.4f);
 }

@@ -21,7 +21,8 @@ enum {
     NODES_ACROSS = 512,   // in x and z
     DISTANCE_STEPS = 256, // a voxel
     FARTHEST = -128 * DISTANCE_STEPS,
-    SOFTEST = 1024
+    SOFTEST = 1024,
+    ICE_STEPS = 255
 };
 
 typedef struct CloudNode {
@@ -52,15 +53,17 @@ typedef struct Roughness {
 } Roughness;
 
 typedef struct CloudGrid {
-    Vec3 low;                  // m: position of node (0, 0, 0)
-    float voxel;               // m
-    int count[3], cells[3];    // nodes and cells in x, y, z; multiples of CELL
-    bool repeats;              // in x and z without end
-    bool fog;                  // densest at its base
-    bool pooled;               // fog on a floor: densest from its thickness below its top down
-    CloudNode *node;           // at cloud_grid_node; owned
-    CloudCell *cell;           // at cloud_grid_cell; owned
-    CloudBounds *part;         // owned
+    Vec3 low;               // m: position of node (0, 0, 0)
+    float voxel;            // m
+    int count[3], cells[3]; // nodes and cells in x, y, z; multiples of CELL
+    bool repeats;           // in x and z without end
+    bool fog;               // densest at its base
+    bool pooled;            // fog on a floor: densest from its thickness below its top down
+    CloudNode *node;        // at cloud_grid_node; owned
+    uint8_t *ice;           // at the same: share of the greatest extinction, 0 .. ICE_STEPS, less
+                            // than all where droplets are frozen; CLOUD_STORM, else NULL; owned
+    CloudCell *cell;        // at cloud_grid_cell; owned
+    CloudBounds *part;      // owned
     const DetailNoise *detail; // borrowed
     Roughness rough;
     float base, thickness, extinction;

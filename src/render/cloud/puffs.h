@@ -39,11 +39,14 @@ bool puffs_add(Puffs *puffs, Puff puff, Error *e);
 // A softness that dry air has raised by a share 0..1 of what is left, or lowered by -share.
 float puffs_worn(float softness, float share);
 
+// A ball and the smaller ones on its flanks, more of them above than below: what rises bulges.
+// Dry air that the bulge pushes aside is mixed in below it, not into its top. levels: of ever
+// smaller balls, at most PUFF_LEVELS. Errors: ERROR_MEMORY.
+enum { PUFF_LEVELS = 3 };
+bool puffs_add_bulging(Puffs *puffs, Puff ball, float wear, int levels, uint64_t key, Error *e);
+
 // Balls up a column.
 bool puffs_add_column(Puffs *puffs, const Column *column, uint64_t key, Error *e);
-
-// Adds one storm about (center_x, center_z): towers up to the anvil, which the wind draws out.
-bool puffs_grow_storm(Puffs *puffs, const Cloud *cloud, uint64_t key, Error *e);
 
 void puffs_clear(Puffs *puffs);
 
