@@ -2,6 +2,7 @@
 
 #include "base/color.h"
 #include "base/memory.h"
+#include "image/regression.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,8 +11,15 @@
 enum {
     WINDOW = 7,          // half width of the search window, pixels
     BORDER = WINDOW + 1, // mirrored pixels around the image: window and patch never leave it
-    BAND = 16            // rows per thread at a time
+    NEIGHBOURS = (2 * WINDOW + 1) * (2 * WINDOW + 1),
+    ROWS = 4, // of a tile, which is LANES pixels wide
+    CANDIDATES = 2
 };
+
+// Divisors of color distances: the first candidate looks for neighbours of the same color, the
+// second leaves nearly all to the guides.
+static const float WIDER[CANDIDATES] = {1.25f, 16.0f};
+#define RIDGE 0.2f // of the regression
 
 // Per-pixel features, in planes of floats with a border.
 enum {
@@ -23,14 +31,16 @@ enum {
     PLANE_DEPTH = 11,   // logarithm of m; 0 is 1 m
     PLANE_SLACK,        // square of the depth difference allowed between neighbouring pixels
     PLANE_WEIGHT,       // 3: of the channels' squared differences
-    PLANE_COUNT = PLANE_WEIGHT + 3
+    PLANE_RESULT = PLANE_WEIGHT + 3,            // 3 of each candidate
+    PLANE_GAIN = PLANE_RESULT + 3 * CANDIDATES, // of the second over the first, estimated
+    PLANE_COUNT
 };
 
 typedef struct Planes {
     int width, height; // of the image
     int64_t stride;    // floats between rows
     float *data;
-    float *plane[PLANE_COUNT]; // address of pixel (0, 0) of each
+    float *plane[PLANE_COUNT]; // address of pixel (0, 0) of each; whole tiles of pixels
 } Planes;
 
 static int mirror(int i, int count)
@@ -45,7 +55,7 @@ static bool planes_new(Planes *p, int width, int height, Error *e)
 {
     p->width = width;
     p->height = height;
-    p->stride = width + 2 * BORDER;
+    p->stride = (width + LANES - 1) / LANES * LANES + 2 * BORDER;
     int64_t size = p->stride * (height + 2 * BORDER);
     p->data = memory_alloc(size * PLANE_COUNT, sizeof *p->data, e);
     for (int k = 0; p->data && k < PLANE_COUNT; k++) {
@@ -137,64 +147,54 @@ static void fill_pixel(const Planes *p, const DenoiseInput *g, float strength, i
     p->plane[PLANE_SLACK][to] = 0.01f * 0.01f + 4.0f * (dx * dx + dy * dy);
 }
 
-// Workspace of one band: patch distances of its rows and one above and below, sums over patches,
-// and the gathered result.
-typedef struct Band {
-    float *distance, *across, *weight, *sum[3];
-} Band;
-
-static bool band_new(Band *band, const Planes *p)
-{
-    int64_t row = p->stride;
-    float *data = memory_alloc_zero(row * (2 * (BAND + 2) + 4 * BAND), sizeof *data, NULL);
-    if (!data) {
-        return false;
-    }
-    band->distance = data;
-    band->across = data + row * (BAND + 2);
-    band->weight = data + row * 2 * (BAND + 2);
-    for (int c = 0; c < 3; c++) {
-        band->sum[c] = band->weight + row * BAND * (c + 1);
-    }
-    return true;
-}
+// Workspace of one tile. Rows of distances have a pixel more on each side, and one row above and
+// below.
+typedef struct Tile {
+    float distance[ROWS + 2][LANES + 2];
+    Lane across[ROWS + 2];
+    Lane weight[ROWS][CANDIDATES][NEIGHBOURS];
+    Lane feature[FEATURES];
+    Regression fit;
+    Lane sum[3], shares, own; // of the result; the pixel's own share
+} Tile;
 
 // Squared colour differences beyond what the variances explain, relative to those variances
-// (Rousselle 2012, eq. 2), for one row; offset: to the other pixel.
-static void color_distances(const Planes *p, int y, int64_t offset, float *restrict out)
+// (Rousselle 2012, eq. 2), for a row of a tile; at: its first pixel, offset: to the other.
+static void color_distances(const Planes *p, int64_t at, int64_t offset, float out[LANES + 2])
 {
-    const float *restrict a = p->plane[PLANE_COLOR] + y * p->stride;
-    const float *restrict b = p->plane[PLANE_COLOR + 1] + y * p->stride;
-    const float *restrict c = p->plane[PLANE_COLOR + 2] + y * p->stride;
-    const float *restrict v = p->plane[PLANE_VARIANCE] + y * p->stride;
-    const float *restrict t = p->plane[PLANE_TOLERANCE] + y * p->stride;
-    const float *restrict wa = p->plane[PLANE_WEIGHT] + y * p->stride;
-    const float *restrict wb = p->plane[PLANE_WEIGHT + 1] + y * p->stride;
-    const float *restrict wc = p->plane[PLANE_WEIGHT + 2] + y * p->stride;
-    for (int x = -1; x <= p->width; x++) {
+    const float *restrict a = p->plane[PLANE_COLOR] + at;
+    const float *restrict b = p->plane[PLANE_COLOR + 1] + at;
+    const float *restrict c = p->plane[PLANE_COLOR + 2] + at;
+    const float *restrict v = p->plane[PLANE_VARIANCE] + at;
+    const float *restrict t = p->plane[PLANE_TOLERANCE] + at;
+    const float *restrict wa = p->plane[PLANE_WEIGHT] + at;
+    const float *restrict wb = p->plane[PLANE_WEIGHT + 1] + at;
+    const float *restrict wc = p->plane[PLANE_WEIGHT + 2] + at;
+    for (int x = -1; x <= LANES; x++) {
         float da = a[x] - a[x + offset], db = b[x] - b[x + offset], dc = c[x] - c[x + offset];
         float v0 = v[x], v1 = v[x + offset], least = v0 < v1 ? v0 : v1;
         float square = (wa[x] * da * da + wb[x] * db * db + wc[x] * dc * dc) * (1.0f / 3.0f);
-        out[x] = (square - (v0 + least)) / (1e-10f + (t[x] + t[x + offset]));
+        out[x + 1] = (square - (v0 + least)) / (1e-10f + (t[x] + t[x + offset]));
     }
 }
 
-static void sum_across(const Planes *p, const float *restrict in, float *restrict out)
+static void sum_across(const float in[LANES + 2], Lane out)
 {
-    for (int x = 0; x < p->width; x++) {
-        out[x] = in[x - 1] + in[x] + in[x + 1];
+    for (int x = 0; x < LANES; x++) {
+        out[x] = in[x] + in[x + 1] + in[x + 2];
     }
 }
 
-// Squared feature differences of a row, relative to their bandwidths.
-static void feature_distances(const Planes *p, int y, int64_t offset, float *restrict out)
+// Squared feature differences of a row, relative to their bandwidths: wide ones, because the fit
+// follows albedo and normal.
+static void feature_distances(const Planes *p, int64_t at, int64_t offset, Lane out)
 {
     const float *restrict plane[PLANE_COUNT];
     for (int k = 0; k < PLANE_COUNT; k++) {
-        plane[k] = p->plane[k] + y * p->stride;
+        plane[k] = p->plane[k] + at;
     }
-    const float albedo_scale = 1.0f / (0.06f * 0.06f), normal_scale = 1.0f / (0.3f * 0.3f);
-    for (int x = 0; x < p->width; x++) {
+    const float albedo_scale = 1.0f / (0.3f * 0.3f), normal_scale = 1.0f / (0.5f * 0.5f);
+    for (int x = 0; x < LANES; x++) {
         int64_t q = x + offset;
         float a = plane[PLANE_ALBEDO][x] - plane[PLANE_ALBEDO][q];
         float b = plane[PLANE_ALBEDO + 1][x] - plane[PLANE_ALBEDO + 1][q];
@@ -204,75 +204,166 @@ static void feature_distances(const Planes *p, int y, int64_t offset, float *res
         float f = plane[PLANE_NORMAL + 2][x] - plane[PLANE_NORMAL + 2][q];
         float z = plane[PLANE_DEPTH][x] - plane[PLANE_DEPTH][q];
         out[x] = (a * a + b * b + c * c) * albedo_scale + (d * d + e * e + f * f) * normal_scale +
-                 z * z / plane[PLANE_SLACK][x];
+                 z * z / (plane[PLANE_SLACK][x] + plane[PLANE_SLACK][q]);
     }
 }
 
-// Adds the other pixel with weight e^-distance (as (1 - d/8)^8, which has finite support).
-static void gather_row(const Planes *p, const Band *band, int row, int y, int64_t offset,
-                       float away)
+// Weights e^-distance (as (1 - d/8)^8, which has finite support).
+static void weigh(Tile *t, int row, int neighbour, const Lane feature, float away)
 {
-    const float *restrict above = band->across + (int64_t)row * p->stride;
-    const float *restrict middle = above + p->stride, *restrict below = middle + p->stride;
-    const float *restrict feature = band->distance + BORDER; // no longer used for distances
-    int64_t own = (int64_t)row * p->stride;
-    float *restrict weight = band->weight + own;
-    for (int x = 0; x < p->width; x++) {
-        float patch = (above[x] + middle[x] + below[x]) * (1.0f / 9.0f);
-        float d = 1.0f - ((patch > 0.0f ? patch : 0.0f) + feature[x] + away) * 0.125f;
-        d = d > 0.0f ? d : 0.0f;
-        d *= d;
-        d *= d;
-        d *= d;
-        weight[x] += d;
-        for (int c = 0; c < 3; c++) {
-            band->sum[c][own + x] += d * p->plane[PLANE_COLOR + c][y * p->stride + x + offset];
+    for (int k = 0; k < CANDIDATES; k++) {
+        float scale = 1.0f / (9.0f * WIDER[k]);
+        float *restrict weight = t->weight[row][k][neighbour];
+        for (int x = 0; x < LANES; x++) {
+            float patch = t->across[row][x] + t->across[row + 1][x] + t->across[row + 2][x];
+            float d = (patch > 0.0f ? patch * scale : 0.0f) + feature[x] + away;
+            d = 1.0f - d * 0.125f;
+            d = d > 0.0f ? d : 0.0f;
+            d *= d;
+            d *= d;
+            d *= d;
+            weight[x] = d;
         }
     }
 }
 
-static void gather_offset(const Planes *p, const Band *band, int y0, int rows, int dx, int dy)
+static int64_t offset_of(const Planes *p, int neighbour, int *dx, int *dy)
 {
-    int64_t offset = dy * p->stride + dx;
+    *dx = neighbour % (2 * WINDOW + 1) - WINDOW;
+    *dy = neighbour / (2 * WINDOW + 1) - WINDOW;
+    return *dy * p->stride + *dx;
+}
+
+static void weigh_neighbour(const Planes *p, Tile *t, int64_t at, int rows, int neighbour)
+{
+    int dx, dy;
+    int64_t offset = offset_of(p, neighbour, &dx, &dy);
     float away = (float)(dx * dx + dy * dy) / (WINDOW * WINDOW); // an outlier leaves no square
-    for (int row = -1; row <= rows; row++) {
-        float *line = band->distance + (int64_t)(row + 1) * p->stride + BORDER;
-        color_distances(p, y0 + row, offset, line);
-        sum_across(p, line, band->across + (int64_t)(row + 1) * p->stride);
+    for (int row = 0; row < rows + 2; row++) {
+        color_distances(p, at + (row - 1) * p->stride, offset, t->distance[row]);
+        sum_across(t->distance[row], t->across[row]);
     }
     for (int row = 0; row < rows; row++) {
-        feature_distances(p, y0 + row, offset, band->distance + BORDER);
-        gather_row(p, band, row, y0 + row, offset, away);
+        Lane feature;
+        feature_distances(p, at + row * p->stride, offset, feature);
+        weigh(t, row, neighbour, feature, away);
     }
 }
 
-static void finish_band(const Planes *p, const Band *band, const DenoiseInput *g, int y0, int rows,
-                        Image *out)
+// What the fit is linear in: place on the screen, albedo and normal, less the pixel's own.
+static int64_t set_features(const Planes *p, Tile *t, int64_t at, int neighbour)
 {
-    for (int row = 0; row < rows; row++) {
-        for (int x = 0; x < p->width; x++) {
-            int64_t pixel = (int64_t)(y0 + row) * p->width + x, own = (int64_t)row * p->stride + x;
-            float divisor[3];
-            divisor_of(g->albedo->pixel + 3 * pixel, divisor);
-            float *to = out->pixel + pixel * out->channels;
-            for (int c = 0; c < 3; c++) {
-                to[c] = band->sum[c][own] / band->weight[own] * divisor[c];
+    int dx, dy;
+    int64_t offset = offset_of(p, neighbour, &dx, &dy);
+    for (int x = 0; x < LANES; x++) {
+        t->feature[0][x] = (float)dx / WINDOW;
+        t->feature[1][x] = (float)dy / WINDOW;
+    }
+    for (int k = 0; k < 6; k++) {
+        const float *plane = p->plane[PLANE_ALBEDO + k] + at;
+        for (int x = 0; x < LANES; x++) {
+            t->feature[2 + k][x] = plane[x + offset] - plane[x];
+        }
+    }
+    return offset;
+}
+
+static void fit_row(const Planes *p, Tile *t, int64_t at, const Lane weight[NEIGHBOURS])
+{
+    regression_clear(&t->fit);
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        set_features(p, t, at, i);
+        regression_add(&t->fit, weight[i], t->feature);
+    }
+    regression_solve(&t->fit, RIDGE);
+    memset(t->sum, 0, sizeof t->sum);
+    memset(t->shares, 0, sizeof t->shares);
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        int64_t offset = set_features(p, t, at, i);
+        Lane share;
+        regression_share(&t->fit, weight[i], t->feature, share);
+        for (int x = 0; x < LANES; x++) {
+            t->shares[x] += share[x];
+        }
+        for (int c = 0; c < 3; c++) {
+            const float *restrict color = p->plane[PLANE_COLOR + c] + at + offset;
+            for (int x = 0; x < LANES; x++) {
+                t->sum[c][x] += share[x] * color[x];
             }
         }
+        if (i == NEIGHBOURS / 2) {
+            memcpy(t->own, share, sizeof share);
+        }
     }
 }
 
-static void filter_band(const Planes *p, const Band *band, const DenoiseInput *g, int y0,
-                        Image *out)
+// Writes a candidate's result and adds its squared error with the sign: Stein's unbiased estimate
+// (Stein 1981; Li 2012), but for the variance, which all candidates have in common.
+static void write_candidate(const Planes *p, const Tile *t, int64_t at, int candidate, float sign)
 {
-    int rows = p->height - y0 < BAND ? p->height - y0 : BAND;
-    memset(band->weight, 0, (size_t)p->stride * BAND * 4 * sizeof(float));
-    for (int dy = -WINDOW; dy <= WINDOW; dy++) {
-        for (int dx = -WINDOW; dx <= WINDOW; dx++) {
-            gather_offset(p, band, y0, rows, dx, dy);
+    float *restrict gain = p->plane[PLANE_GAIN] + at;
+    Lane error = {0};
+    for (int c = 0; c < 3; c++) {
+        float *restrict to = p->plane[PLANE_RESULT + 3 * candidate + c] + at;
+        const float *restrict color = p->plane[PLANE_COLOR + c] + at;
+        const float *restrict weight = p->plane[PLANE_WEIGHT + c] + at;
+        for (int x = 0; x < LANES; x++) {
+            to[x] = t->sum[c][x] / t->shares[x];
+            error[x] += weight[x] * (to[x] - color[x]) * (to[x] - color[x]) * (1.0f / 3.0f);
         }
     }
-    finish_band(p, band, g, y0, rows, out);
+    const float *restrict v = p->plane[PLANE_VARIANCE] + at;
+    for (int x = 0; x < LANES; x++) {
+        float estimate = error[x] + 2.0f * v[x] * t->own[x] / t->shares[x];
+        gain[x] += sign * (estimate < 20.0f * v[x] ? estimate : 20.0f * v[x]); // tames outliers
+    }
+}
+
+static void filter_tile(const Planes *p, Tile *t, int x0, int y0)
+{
+    int rows = p->height - y0 < ROWS ? p->height - y0 : ROWS;
+    int64_t at = y0 * p->stride + x0;
+    for (int i = 0; i < NEIGHBOURS; i++) {
+        weigh_neighbour(p, t, at, rows, i);
+    }
+    for (int row = 0; row < rows; row++) {
+        int64_t first = at + row * p->stride;
+        memset(p->plane[PLANE_GAIN] + first, 0, sizeof(Lane));
+        for (int k = 0; k < CANDIDATES; k++) {
+            fit_row(p, t, first, t->weight[row][k]);
+            write_candidate(p, t, first, k, k == 0 ? 1.0f : -1.0f);
+        }
+    }
+}
+
+// Share of the second candidate in a pixel. The errors are estimated from the pixel's own noise, so
+// only their mean over a neighbourhood tells something.
+static float share_of_second(const Planes *p, int x, int y)
+{
+    enum { RADIUS = 4 };
+    float sum = 0.0f, variance = 1e-10f;
+    for (int j = -RADIUS; j <= RADIUS; j++) {
+        for (int i = -RADIUS; i <= RADIUS; i++) {
+            int64_t at = (int64_t)mirror(y + j, p->height) * p->stride + mirror(x + i, p->width);
+            float near = 1.0f / (1.0f + 0.25f * (float)(i * i + j * j));
+            sum += near * p->plane[PLANE_GAIN][at];
+            variance += near * p->plane[PLANE_VARIANCE][at];
+        }
+    }
+    return fminf(fmaxf(0.5f + 20.0f * sum / variance, 0.0f), 1.0f);
+}
+
+static void finish_row(const Planes *p, const DenoiseInput *g, int y, Image *out)
+{
+    for (int x = 0; x < p->width; x++) {
+        int64_t pixel = (int64_t)y * p->width + x, at = (int64_t)y * p->stride + x;
+        float divisor[3], share = share_of_second(p, x, y);
+        divisor_of(g->albedo->pixel + 3 * pixel, divisor);
+        for (int c = 0; c < 3; c++) {
+            float a = p->plane[PLANE_RESULT + c][at], b = p->plane[PLANE_RESULT + 3 + c][at];
+            out->pixel[pixel * out->channels + c] = (a + (b - a) * share) * divisor[c];
+        }
+    }
 }
 
 static bool filter(const Planes *p, const DenoiseInput *g, const Run *run, Image *out, Error *e)
@@ -280,18 +371,24 @@ static bool filter(const Planes *p, const DenoiseInput *g, const Run *run, Image
     bool short_of_memory = false;
 #pragma omp parallel num_threads(run->threads)
     {
-        Band band = {0};
-        if (!band_new(&band, p)) {
+        Tile *tile = memory_alloc(1, sizeof *tile, NULL);
+        if (!tile) {
 #pragma omp atomic write
             short_of_memory = true;
         }
 #pragma omp for schedule(dynamic, 1)
-        for (int y = 0; y < p->height; y += BAND) {
-            if (band.distance && !run_is_cancelled(run)) {
-                filter_band(p, &band, g, y, out);
+        for (int y = 0; y < p->height; y += ROWS) {
+            for (int x = 0; tile && x < p->width && !run_is_cancelled(run); x += LANES) {
+                filter_tile(p, tile, x, y);
             }
         }
-        free(band.distance);
+        free(tile);
+#pragma omp for schedule(static)
+        for (int y = 0; y < p->height; y++) {
+            if (!run_is_cancelled(run)) {
+                finish_row(p, g, y, out);
+            }
+        }
     }
     if (run_is_cancelled(run)) {
         return run_cancel_error(e);
@@ -334,8 +431,8 @@ Image *image_denoise(const DenoiseInput *input, float strength, const Run *run, 
     if (done) {
 #pragma omp parallel for num_threads(run->threads) schedule(static)
         for (int y = -BORDER; y < planes.height + BORDER; y++) {
-            for (int x = -BORDER; x < planes.width + BORDER; x++) {
-                fill_pixel(&planes, input, strength, x, y);
+            for (int64_t x = -BORDER; x < planes.stride - BORDER; x++) {
+                fill_pixel(&planes, input, strength, (int)x, y);
             }
         }
         done = filter(&planes, input, run, out, e);

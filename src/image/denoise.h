@@ -15,10 +15,12 @@ typedef struct DenoiseInput {
                                   // NULL = so many that the variance is exact
 } DenoiseInput;
 
-// Non-local means guided by albedo, normal and depth, weighted by the per-pixel variance (Rousselle
-// 2013), on radiance divided by albedo, so that surface texture is preserved. strength: typically
-// 1, 0 = a copy. Pixels of variance 0 stay unchanged. The result does not depend on run->threads.
-// ERROR_INPUT when sizes or channels do not match. The caller frees the image.
+// Linear regression on albedo, normal and place over neighbours, which are weighted by non-local
+// means (Rousselle 2013; Bitterli 2016), of radiance divided by albedo, so that surface texture is
+// preserved; of two such filters the one with the smaller error by Stein's estimate (Li 2012).
+// strength: typically 1, 0 = a copy. Pixels of variance 0 stay unchanged. The result does not
+// depend on run->threads. ERROR_INPUT when sizes or channels do not match. The caller frees the
+// image.
 Image *image_denoise(const DenoiseInput *input, float strength, const Run *run, Error *e);
 
 #endif

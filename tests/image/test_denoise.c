@@ -215,7 +215,8 @@ static void test_refuses_and_stops(void **state)
 }
 
 // Few samples, of which some are twenty times as bright: the variance of a pixel without one comes
-// out far too small. Told how few they are, the denoiser trusts it less.
+// out far too small. Told how few they are, the denoiser trusts it less. Non-local means alone
+// leave 0.055, or 0.102 if they are not told.
 static void test_variance_of_few_samples(void **state)
 {
     (void)state;
@@ -243,7 +244,7 @@ static void test_variance_of_few_samples(void **state)
     Image *wary = image_denoise(&input, 1.0f, &run, NULL);
     assert_true(trusting && wary);
     double before = rmse(trusting, s.truth), after = rmse(wary, s.truth);
-    if (after > 0.8 * before) {
+    if (after > 0.044 || after > 0.9 * before) {
         fail_msg("rmse %g if the variance is trusted, %g if not", before, after);
     }
     image_free(trusting);
