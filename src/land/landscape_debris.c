@@ -13,8 +13,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double TALUS_AREA = 1.5e5; // m^2: debris of less rests at its angle of repose
-static const double FLATTEST = 0.12;    // of fans
+static const double TALUS_AREA = 4.0e4; // m^2: debris of less rests at its angle of repose
+static const double FLATTEST = 0.08;    // of fans
 static const double COARSE = 0.5;       // share of the rubble that is not ground to mud on its way
 
 // The slope at which debris of a catchment comes to rest.
@@ -101,12 +101,26 @@ static void hand_down(Landscape *land, const LandscapeRates *rates, const double
     }
 }
 
-// Flows leave their way where they come to rest: what has settled spreads downhill beside it, which
-// makes cones and fans of it. settled, next: m, before and after a turn; slope: that rests.
-static void spread_row(const Landscape *land, double slope, const double *settled, double *next,
-                       int row)
+// Fills `slope`: that above which what has settled spreads. On steep ground grains come to rest
+// near their angle of repose; on gentle ground, where flows and streams lay them down, all spread.
+static void find_spreading(const Landscape *land, double repose, double *slope)
 {
-    double limit = slope * land->cell;
+    const double gentle = 0.85, steep = 1.0, rests = 0.95; // shares of the repose
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        int32_t to = land->route->receiver[i];
+        double fall = land->rock[i] + land->loose[i] - (land->rock[to] + land->loose[to]);
+        double lies = to == (int32_t)i ? 0.0 : fall / (way_length(land, (int32_t)i, to) * repose);
+        double share = (lies - gentle) / (steep - gentle);
+        slope[i] = rests * repose * (share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
+    }
+}
+
+// Flows leave their way where they come to rest: what has settled spreads downhill beside it, which
+// makes cones and fans of it. settled, next: m, before and after a turn; slope: of each sample, on
+// which it rests.
+static void spread_row(const Landscape *land, const double *slope, const double *settled,
+                       double *next, int row)
+{
     for (int column = 0; column < land->side; column++) {
         int64_t i = (int64_t)row * land->side + column;
         double gained = 0.0, here = land->rock[i] + land->loose[i] + settled[i];
@@ -118,8 +132,9 @@ static void spread_row(const Landscape *land, double slope, const double *settle
             int64_t n = (int64_t)r * land->side + c;
             double there = land->rock[n] + land->loose[n] + settled[n];
             double drop = here - there, from = drop > 0.0 ? settled[i] : settled[n];
+            double rest = slope[drop > 0.0 ? i : n] * land->cell;
             double over =
-                (drop > 0.0 ? drop : -drop) - (k % 2 == 0 ? 1.4142135623730951 : 1.0) * limit;
+                (drop > 0.0 ? drop : -drop) - (k % 2 == 0 ? 1.4142135623730951 : 1.0) * rest;
             double size = over > 0.0 ? over : 0.0;
             double moves = 0.11 * (size < from ? size : from);
             bool open = !land->base[i] && !land->base[n];
@@ -129,7 +144,7 @@ static void spread_row(const Landscape *land, double slope, const double *settle
     }
 }
 
-static double *spread(const Landscape *land, double slope, double *settled, double *next,
+static double *spread(const Landscape *land, const double *slope, double *settled, double *next,
                       int threads)
 {
     enum { TIMES = 8 };
@@ -157,7 +172,9 @@ bool landscape_debris(Landscape *land, const LandscapeRates *rates, double time,
     bool done = settled && find_scour(land, rates, time, dug, e);
     if (done) {
         hand_down(land, rates, dug, load, settled);
-        spread(land, 0.95 * rates->repose, settled, load, run->threads);
+        double *slope = dug; // which has been handed down
+        find_spreading(land, rates->repose, slope);
+        spread(land, slope, settled, load, run->threads);
         for (int64_t i = 0; i < landscape_count(land); i++) {
             land->loose[i] += settled[i];
         }
