@@ -14,8 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double TALUS_AREA = 1.5e5; // m^2: debris of less rests at its angle of repose
-static const double FLATTEST = 0.12;    // of fans
+static const double TALUS_AREA = 4.0e4; // m^2: debris of less rests at its angle of repose
+static const double FLATTEST = 0.08;    // of fans
 static const double COARSE = 0.5;       // share of the rubble that is not ground to mud on its way
 
 // The slope at which debris of a catchment comes to rest.
@@ -98,6 +98,20 @@ static void hand_down(Landscape *land, const LandscapeRates *rates, const double
     }
 }
 
+// Fills `slope`: that above which what has settled spreads. On steep ground grains come to rest
+// near their angle of repose; on gentle ground, where flows and streams lay them down, all spread.
+static void find_spreading(const Landscape *land, double repose, double *slope)
+{
+    const double gentle = 0.85, steep = 1.0, rests = 0.95; // shares of the repose
+    for (int64_t i = 0; i < landscape_count(land); i++) {
+        int32_t to = land->route->receiver[i];
+        double fall = land->rock[i] + land->loose[i] - (land->rock[to] + land->loose[to]);
+        double lies = to == (int32_t)i ? 0.0 : fall / (way_length(land, (int32_t)i, to) * repose);
+        double share = (lies - gentle) / (steep - gentle);
+        slope[i] = rests * repose * (share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share);
+    }
+}
+
 // Flows leave their way where they come to rest: what has settled spreads downhill beside it, which
 // makes cones and fans of it.
 typedef struct Spread {
@@ -105,7 +119,7 @@ typedef struct Spread {
     double *ground;         // m: rock and loose cover
     double *settled, *next; // m: before and after a turn
     double *top;            // m: ground and what has settled
-    double slope;           // that rests
+    double *slope;          // on which what has settled rests
 } Spread;
 
 // What a row gains in a turn. Loops run along the row, direction by direction, so that they can be
@@ -114,7 +128,7 @@ static void spread_row(const Spread *s, int row)
 {
     const Landscape *land = s->land;
     int64_t first = (int64_t)row * land->side;
-    const double *top = s->top + first, *settled = s->settled + first;
+    const double *top = s->top + first, *settled = s->settled + first, *slope = s->slope + first;
     const uint8_t *base = land->base + first;
     double *gained = s->next + first;
     memset(gained, 0, sizeof *gained * (size_t)land->side);
@@ -125,12 +139,13 @@ static void spread_row(const Spread *s, int row)
         }
         int64_t offset = (int64_t)(r - row) * land->side + dx;
         int end = dx > 0 ? land->side - 1 : land->side;
-        double limit = (k % 2 == 0 ? 1.4142135623730951 : 1.0) * (s->slope * land->cell);
+        double way = k % 2 == 0 ? 1.4142135623730951 : 1.0; // in cells
 #pragma omp simd
         for (int c = dx < 0 ? 1 : 0; c < end; c++) {
             double drop = top[c] - top[c + offset];
             double from = drop > 0.0 ? settled[c] : settled[c + offset];
-            double over = (drop > 0.0 ? drop : -drop) - limit;
+            double rest = (drop > 0.0 ? slope[c] : slope[c + offset]) * land->cell;
+            double over = (drop > 0.0 ? drop : -drop) - way * rest;
             double size = over > 0.0 ? over : 0.0;
             double moves = 0.11 * (size < from ? size : from);
             moves = base[c] || base[c + offset] ? 0.0 : moves;
@@ -180,15 +195,18 @@ bool landscape_debris(Landscape *land, const LandscapeRates *rates, double time,
     double *load = dug ? memory_alloc_zero(count, sizeof *load, e) : NULL;
     double *settled = load ? memory_alloc_zero(count, sizeof *settled, e) : NULL;
     double *top = settled ? memory_alloc(count, sizeof *top, e) : NULL;
-    if (top) {
+    double *slope = top ? memory_alloc(count, sizeof *slope, e) : NULL;
+    if (slope) {
         find_scour(land, rates, time, dug, top);
         hand_down(land, rates, dug, load, settled);
-        spread(&(Spread){land, dug, settled, load, top, 0.95 * rates->repose}, run->threads);
+        find_spreading(land, rates->repose, slope);
+        spread(&(Spread){land, dug, settled, load, top, slope}, run->threads);
         for (int64_t i = 0; i < count; i++) {
             land->loose[i] += settled[i];
         }
     }
-    bool done = top;
+    bool done = slope;
+    free(slope);
     free(top);
     free(settled);
     free(load);
