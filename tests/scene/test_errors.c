@@ -212,7 +212,7 @@ static const Case scenes[] = {
      ":1:58: objects.a.terrain.tiles.drawn is true, but tiles.count is 0; give a number of tiles, "
      "such as 16"},
     {"objects: [{name: a, terrain: {resolution: 16, tiles: {count: 32, drawn: true}}}]\n",
-     ":1:75: objects.a.terrain.tiles.drawn is true; that needs at most as many tiles a side as the "
+     ":1:73: objects.a.terrain.tiles.drawn is true; that needs at most as many tiles a side as the "
      "terrain has cells, 16, not 32"},
     {"objects: [{name: a, terrain: {form: delta, tiles: {count: 16, drawn: true}}}]\n",
      ":1:70: objects.a.terrain.tiles.drawn is true; land with water, lakes, a forest or a map of "
