@@ -175,6 +175,10 @@ static bool task_failed(const ChildJob *job, const ChildReport *report, Error *e
     }
     bool known = copy.code == ERROR_INPUT || copy.code == ERROR_IO;
     error_set(e, known ? copy.code : ERROR_INTERNAL, "%s", copy.message);
+    clean(copy.key, sizeof copy.key);
+    if (copy.key[0]) {
+        error_key(e, "%s", copy.key);
+    }
     if (job->file) {
         error_locate(e, job->file, copy.line > 0 ? copy.line : 0,
                      copy.column > 0 ? copy.column : 0);

@@ -7,7 +7,7 @@ bool volume_field_init(VolumeField *field, const FieldParams *params, const Run 
     field->volume = volume_read(params->file, params->grid, run, e);
     Transform to_world;
     if (!field->volume) {
-        return error_key(e, "file");
+        return e && e->key[0] ? false : error_key(e, "file"); // or it blames the grid
     }
     if (transform_inverse(&field->volume->to_index, &to_world)) {
         for (int axis = 0; axis < 3; axis++) {

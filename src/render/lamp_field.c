@@ -41,6 +41,11 @@ void lamp_field_free(LampField *field)
     }
 }
 
+int64_t lamp_field_bytes(void)
+{
+    return MOST_VOXELS * (int64_t)(sizeof(LampTally) + sizeof(Vec3));
+}
+
 // ---- photons
 
 static Photon photon_start(const EmissionTable *table, uint64_t key)

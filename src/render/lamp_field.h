@@ -28,6 +28,9 @@ bool lamp_field_make(LampField **field, const struct Tracer *tracer, uint64_t ke
                      Error *e);
 void lamp_field_free(LampField *field); // NULL is fine
 
+// Bytes of memory that making a field takes, at most but for its rim.
+int64_t lamp_field_bytes(void);
+
 // Mean over all directions of the lamps' radiance at a place. False beyond the field, or where it
 // is NULL.
 bool lamp_field_at(const LampField *field, Vec3 p, Vec3 *mean);

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "config/yaml.h"
 #include "render/film.h"
+#include "render/lamp_field.h"
 #include "scene/cloud_grounds.h"
 #include "scene/masks.h"
 #include "scene/place.h"
@@ -34,10 +35,33 @@ double scene_film_memory(const Scene *scene)
     return (FILM_PIXEL_BYTES + PIXEL_WRITE_BYTES) * (double)scene->film.width * scene->film.height;
 }
 
+static bool has_lamps(const Scene *scene)
+{
+    bool lamps = scene->light_count > 0;
+    for (int i = 0; !lamps && i < scene->object_count; i++) {
+        const SceneObject *object = &scene->objects[i];
+        for (int role = 0; role < OBJECT_MOST_MATERIALS; role++) {
+            const char *name = object->material[role]
+                                   ? object->material[role]
+                                   : kind_material(object->kind, object->params, role);
+            const Material *material = name ? scene_material(scene, name) : NULL;
+            lamps = lamps || (material && material->kind == MATERIAL_EMISSION);
+        }
+    }
+    return lamps;
+}
+
+// A medium leaves no field, and one that pays nowhere is not made: at most.
+static double lamp_field_memory(const Scene *scene)
+{
+    bool made = scene->render.lamp_field && scene->cloud_count > 0 && !scene->medium;
+    return made && has_lamps(scene) ? (double)lamp_field_bytes() : 0.0;
+}
+
 double scene_memory(const Scene *scene)
 {
     return PROGRAM_BYTES + needs_of(scene, -1).bytes + scene_film_memory(scene) +
-           scene_cloud_memory(scene) + scene_mask_memory(scene);
+           scene_cloud_memory(scene) + scene_mask_memory(scene) + lamp_field_memory(scene);
 }
 
 // ---- a limit ----

@@ -66,6 +66,7 @@ openvdb::GridBase::Ptr find_grid(const char *file, const char *name, bool scalar
     if (name) {
         error_set(e, ERROR_INPUT, "there is no grid of floats called '%.60s'; the file has: %.200s",
                   name, known.empty() ? "nothing" : known.c_str());
+        error_key(e, "grid");
     } else {
         error_set(e, ERROR_INPUT, "there is no grid of floats; the file has: %.200s",
                   known.empty() ? "nothing" : known.c_str());

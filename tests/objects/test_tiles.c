@@ -1,9 +1,10 @@
 // Tiles of a world: made alone, they match the world made whole, bit for bit.
-#include "base/mesh.h"
 #include "base/noise.h"
 #include "land/height_drainage.h"
 #include "land/tile_mesh.h"
 #include "land/tiles.h"
+#include "making.h"
+#include "objects/terrain/terrain.h"
 #include "testing.h"
 
 #include <math.h>
@@ -383,6 +384,45 @@ static void threads_change_no_bit_of_the_mesh(void **state)
     height_field_free(world);
 }
 
+// A terrain that is drawn of tiles is one part: the mesh of its heights, moved to its position.
+static void a_terrain_is_drawn_of_its_tiles(void **state)
+{
+    (void)state;
+    Error e = {0};
+    Run run = run_with(2);
+    TerrainParams params = terrain_params_default();
+    params.form = TERRAIN_NOISE;
+    params.size = 2048.0f;
+    params.resolution = 64;
+    params.beyond = 1;
+    params.mesh_error = 0.004f;
+    params.position = vec3(100.0f, 20.0f, -50.0f);
+    params.tiles = (TerrainTileParams){.count = 8, .cells = 32, .detail = 1.0f, .drawn = true};
+    Recipe recipe = {.seed = 4, .label = "land", .run = &run};
+    Grown grown;
+    assert_true(kind_grow(&kind_terrain, &params, &recipe, 1.0f, NULL, &grown, &e));
+    Geometry geometry = {0};
+    Placing placing = placing_in(&geometry, &recipe);
+    Vec3 eye = vec3(300.0f, 700.0f, 200.0f), own_eye = vec3_sub(eye, params.position);
+    placing.around.eye = &eye;
+    assert_true(terrain_geometry(&params, &grown, &placing, &e));
+    assert_int_equal(geometry.count, 1);
+    HeightField *world = terrain_heights(&params, &grown, &run, &e);
+    TileGrid grid = {.count = 8, .cells = 32, .detail = 1.0f, .seed = 4};
+    TileView view = {
+        .eye = &own_eye, .cell = 0.032f, .beyond = 1, .curve = (float)(0.5 / 6371000.0)};
+    Mesh *mesh = tile_mesh_new(world, &grid, &view, &run, &e), *drawn = geometry.part[0].mesh;
+    assert_int_equal(drawn->vertex_count, mesh->vertex_count);
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        Vec3 p = vec3_add(mesh->position[i], params.position), q = drawn->position[i];
+        assert_true(p.x == q.x && p.y == q.y && p.z == q.z);
+    }
+    mesh_free(mesh);
+    height_field_free(world);
+    geometry_clear(&geometry);
+    grown_clear(&grown);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -396,6 +436,7 @@ int main(void)
         cmocka_unit_test(drawn_tiles_are_the_tiles),
         cmocka_unit_test(far_land_is_coarse_and_sinks),
         cmocka_unit_test(threads_change_no_bit_of_the_mesh),
+        cmocka_unit_test(a_terrain_is_drawn_of_its_tiles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -282,8 +282,8 @@ static void assert_refused(Cloud cloud, const char *key, const char *words)
 static void what_is_no_density_is_refused(void **state)
 {
     (void)state;
-    assert_refused(cloud_of("smoke"), "clouds.0.file", "no grid of floats called 'smoke'");
-    assert_refused(cloud_of("velocity"), "clouds.0.file", "no grid of floats called 'velocity'");
+    assert_refused(cloud_of("smoke"), "clouds.0.grid", "no grid of floats called 'smoke'");
+    assert_refused(cloud_of("velocity"), "clouds.0.grid", "no grid of floats called 'velocity'");
     char other[80];
     snprintf(other, sizeof other, "%s/text.vdb", folder);
     FILE *out = fopen(other, "w");

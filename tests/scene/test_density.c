@@ -115,7 +115,7 @@ static void an_unknown_grid_has_its_place(void **state)
     assert_null(scene_grow_object(scene, 0, &run, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     assert_non_null(strstr(e.message, "called 'bull'; the file has: ball"));
-    assert_int_equal(e.line, 8);
+    assert_int_equal(e.line, 9);
     scene_free(scene);
 }
 

@@ -216,6 +216,16 @@ static const Case scenes[] = {
     {"objects: [{name: a, terrain: {lakes: {count: 3}, water_level: 0.1}}]\n",
      ":1:46: objects.a.terrain.lakes.count is 3, and water_level 0.1; land has lakes at their own "
      "levels or one water level"},
+    {"objects: [{name: a, terrain: {form: alps, tiles: {drawn: true}}}]\n",
+     ":1:58: objects.a.terrain.tiles.drawn is true, but tiles.count is 0; give a number of tiles, "
+     "such as 16"},
+    {"objects: [{name: a, terrain: {resolution: 16, tiles: {count: 32, drawn: true}}}]\n",
+     ":1:73: objects.a.terrain.tiles.drawn is true; that needs at most as many tiles a side as the "
+     "terrain has cells, 16, not 32"},
+    {"objects: [{name: a, terrain: {form: delta, tiles: {count: 16, drawn: true}}}]\n",
+     ":1:70: objects.a.terrain.tiles.drawn is true; land with water, lakes, a forest or a map of "
+     "its own, and forms braided, meander, delta and coast, cannot be drawn of tiles: leave them "
+     "out, or scatter the forest on the land"},
     {"objects: [{name: a, terrain: {form: dunes, lakes: {count: 3}}}]\n",
      ":1:59: objects.a.terrain.lakes.count is 3; forms braided, meander, delta, dunes and coast "
      "have no "

@@ -3,6 +3,7 @@
 #include "scene_fixture.h"
 
 #include "land/cold_pool.h"
+#include "render/lamp_field.h"
 #include "render/world.h"
 #include "scene/builder.h"
 #include "scene/needs.h"
@@ -126,6 +127,32 @@ static void estimates_know_the_terrain(void **state)
     scene_free(high);
 }
 
+// The light of lamps in clouds takes memory where there are lamps, lightning among them, and
+// clouds.
+static void estimates_know_the_lamp_field(void **state)
+{
+    static const struct {
+        const char *text;
+        bool made;
+    } cases[] = {
+        {"clouds: [{kind: cumulus}]\nlights: [{kind: sphere, radiance: 9}]\nobjects: [{name: a, "
+         "ground: {}}]\n",
+         true},
+        {"clouds: [{kind: cumulus}]\nobjects: [{name: a, lightning: {}}]\n", true},
+        {"clouds: [{kind: cumulus}]\nobjects: [{name: a, ground: {}}]\n", false},
+        {"objects: [{name: a, lightning: {}}]\n", false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char without[256];
+        snprintf(without, sizeof without, "render: {lamp_field: false}\n%s", cases[i].text);
+        Scene *with = fixture_read(*state, cases[i].text), *none = fixture_read(*state, without);
+        double more = scene_memory(with) - scene_memory(none);
+        assert_true(cases[i].made ? more == (double)lamp_field_bytes() : more == 0.0);
+        scene_free(with);
+        scene_free(none);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -136,6 +163,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(spray_is_that_of_the_falls, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(estimates_know_the_terrain, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(estimates_know_the_lamp_field, fixture_set_up,
                                         fixture_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

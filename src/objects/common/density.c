@@ -23,7 +23,8 @@ static bool read_volume(Density *density, const DensityParams *params, const Run
     if (density->volume) {
         error_set(e, ERROR_INPUT, "the grid holds vectors; a density needs a grid of floats");
     }
-    return error_key(e, params->grid && density->volume ? "grid" : "file");
+    bool blamed = e && e->key[0]; // the grid, because the file has none of its name
+    return blamed ? false : error_key(e, params->grid && density->volume ? "grid" : "file");
 }
 
 Density *density_new(const DensityParams *params, const Run *run, Error *e)

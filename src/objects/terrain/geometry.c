@@ -1,6 +1,7 @@
 // The parts of a terrain: land, water, forest; or the plane with its map or its tree.
 #include "base/memory.h"
 #include "land/height_mesh.h"
+#include "land/tile_mesh.h"
 #include "mesh/curves.h"
 #include "objects/terrain/form.h"
 
@@ -119,6 +120,38 @@ static bool add_land(const Terrain *terrain, const HeightField *field, const Pla
     return placing_add(placing, (Part){.mesh = mesh}, TERRAIN_LAND, e);
 }
 
+// The land and what lies beyond, of its tiles.
+static bool add_tiles(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                      Error *e)
+{
+    const double earth = 6371000.0; // m
+    const TerrainParams *params = terrain->params;
+    if (terrain->water) {
+        return error_set(
+            e, ERROR_INPUT,
+            "tiles.drawn is true, but it has rivers; draw land without rivers of tiles");
+    }
+    const Vec3 *eye = placing->around.eye;
+    Vec3 own_eye = eye ? vec3_sub(*eye, params->position) : vec3_splat(0.0f);
+    TileGrid grid = {.count = params->tiles.count,
+                     .cells = params->tiles.cells,
+                     .detail = params->tiles.detail,
+                     .seed = terrain->seed};
+    TileView view = {.eye = eye ? &own_eye : NULL,
+                     .cell = 8.0f * params->mesh_error,
+                     .beyond = params->beyond,
+                     .curve = (float)(0.5 / earth)};
+    Mesh *mesh = tile_mesh_new(field, &grid, &view, placing->recipe->run, e);
+    for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
+        mesh->position[i] = vec3_add(mesh->position[i], params->position);
+    }
+    if (!give_strata(mesh, terrain, e)) {
+        mesh_free(mesh);
+        return false;
+    }
+    return placing_add(placing, (Part){.mesh = mesh}, TERRAIN_LAND, e);
+}
+
 // The tree as lines on the plane, their thickness in proportion to its radii.
 static bool add_lines(const Terrain *terrain, const Placing *placing, Error *e)
 {
@@ -177,10 +210,12 @@ bool terrain_geometry(const void *given, const Grown *grown, const Placing *plac
         height_field_free(field);
         return drawn;
     }
-    bool done = field && add_land(terrain, field, placing, e) &&
-                add_beyond(terrain, field, placing, e) &&
-                terrain_add_water(terrain, field, placing, e) &&
-                (params->forest.count <= 0 || terrain_add_forest(terrain, field, placing, e));
+    bool done = field && params->tiles.drawn ? add_tiles(terrain, field, placing, e)
+                                             : field && add_land(terrain, field, placing, e) &&
+                                                   add_beyond(terrain, field, placing, e) &&
+                                                   terrain_add_water(terrain, field, placing, e) &&
+                                                   (params->forest.count <= 0 ||
+                                                    terrain_add_forest(terrain, field, placing, e));
     if (done && placing->keep_land) {
         keep_land(field, params, &placing->geometry->part[first]);
     } else {

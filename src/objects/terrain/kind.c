@@ -49,6 +49,20 @@ static void extent(const void *params, LandExtent *extent)
     *extent = (LandExtent){.side = terrain->size, .relief = relief};
 }
 
+// The triangles of land that is drawn of tiles: as many in each ring from a distance to twice that,
+// from where cells are as fine as tiles have them to the end of the land.
+static double tile_faces(const TerrainParams *terrain)
+{
+    const double cell = 8.0 * (double)terrain->mesh_error; // share of the distance
+    double samples = (double)terrain->tiles.count * terrain->tiles.cells;
+    double across = 2.0 * terrain->beyond + 1.0, faces = 0.0;
+    double near = (double)terrain->size / samples / cell;
+    for (double r = near; r < 0.5 * across * (double)terrain->size; r *= 2.0) {
+        faces += 2.0 * 3.0 * 3.14159265 / (cell * cell);
+    }
+    return fmin(faces, 2.0 * across * across * samples * samples);
+}
+
 static void needs(const void *params, Needs *needs)
 {
     enum {
@@ -74,6 +88,9 @@ static void needs(const void *params, Needs *needs)
                                      : terrain->form == TERRAIN_COAST ? SHORE_BYTES
                                      : terrain->form == TERRAIN_KARST ? KARST_BYTES
                                                                       : 0));
+    }
+    if (terrain->tiles.drawn) {
+        needs_add_skin(needs, "tiles.cells", tile_faces(terrain));
     }
     if (terrain->erosion.debris > 0.0f) {
         needs_add(needs, "erosion.debris", 1.25 * WALLS_FINE_CELLS * WALLS_FINE_CELLS,

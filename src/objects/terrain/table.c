@@ -372,6 +372,12 @@ static const Key TILE_KEYS[] = {
          "as the terrain's resolution."},
     {KEY_OF(TerrainTileParams, detail, "detail", KEY_FLOAT), .high = 2,
      .doc = "Roughness and gullies finer than the terrain's resolution: 0 = none, 1 = natural."},
+    {KEY_OF(TerrainTileParams, drawn, "drawn", KEY_BOOL),
+     .doc = "Draw the land of its tiles, which meet without cracks: the tile below the camera with "
+            "all its cells, farther ones with half, a quarter, ... of them, down to 2, so that no "
+            "cell is larger than 8 mesh_error of its distance. The land beyond the square is of "
+            "tiles, too, and all of it lies on the Earth's curve. Not with water, lakes or a "
+            "forest of the terrain's own, nor of forms braided, meander, delta and coast."},
     {0},
 };
 
@@ -386,7 +392,8 @@ static const Table TILE_TABLE = {
                "    terrain:\n"
                "      form: hills\n"
                "      size: 16000\n"
-               "      tiles: {count: 64, cells: 512}\n",
+               "      tiles: {count: 64, cells: 512}\n"
+               "      beyond: 2\n",
     .size = sizeof(TerrainTileParams),
     .keys = TILE_KEYS};
 
@@ -505,8 +512,26 @@ static void terrain_defaults(void *out)
     *(TerrainParams *)out = terrain_params_default();
 }
 
-static bool check_tiles(const Mapping *mapping, const TerrainTileParams *tiles, int resolution)
+static bool check_tiles(const Mapping *mapping, const TerrainParams *terrain)
 {
+    const TerrainTileParams *tiles = &terrain->tiles;
+    int resolution = terrain->resolution;
+    if (tiles->drawn && tiles->count == 0) {
+        return mapping_fail(mapping, "tiles.drawn",
+                            " is true, but tiles.count is 0; give a number of tiles, such as 16");
+    }
+    if (tiles->drawn && tiles->count > resolution) {
+        return mapping_fail(mapping, "tiles.drawn",
+                            " is true; that needs at most as many tiles a side as the terrain has "
+                            "cells, %d, not %d",
+                            resolution, tiles->count);
+    }
+    if (tiles->drawn && !terrain_can_be_tiled(terrain)) {
+        return mapping_fail(mapping, "tiles.drawn",
+                            " is true; land with water, lakes, a forest or a map of its own, and "
+                            "forms braided, meander, delta and coast, cannot be drawn of tiles: "
+                            "leave them out, or scatter the forest on the land");
+    }
     if ((tiles->count & (tiles->count - 1)) != 0) {
         return mapping_fail(mapping, "tiles.count", " is %d; it must be a power of two, such as 64",
                             tiles->count);
@@ -564,7 +589,7 @@ static bool check_terrain(const Mapping *mapping, void *params)
         return mapping_fail(mapping, "evolution.cells",
                             " is %d; it must be a power of two, such as 1024", evolved);
     }
-    return check_tiles(mapping, &terrain->tiles, cells) &&
+    return check_tiles(mapping, terrain) &&
            ((cells & (cells - 1)) == 0 ||
             mapping_fail(mapping, "resolution", " is %d; it must be a power of two, such as 1024",
                          cells));

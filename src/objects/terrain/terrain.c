@@ -20,6 +20,14 @@ bool terrain_holds_lakes(const TerrainParams *params)
     return !form->water && form->repeat == REPEAT_MIRRORED;
 }
 
+bool terrain_can_be_tiled(const TerrainParams *params)
+{
+    const Form *form = terrain_form(params);
+    bool square = form->repeat == REPEAT_MIRRORED || form->repeat == REPEAT_PERIODIC;
+    bool dry = !form->water && params->water_level <= 0.0f && params->lakes.count == 0;
+    return square && dry && !form->beyond && params->forest.count == 0 && params->show == SHOW_LAND;
+}
+
 bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     const TerrainParams *params = given;

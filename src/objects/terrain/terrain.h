@@ -167,6 +167,7 @@ typedef struct TerrainTileParams {
     int count;    // a side; 0 = none
     int cells;    // a side of a tile
     float detail; // TileGrid.detail
+    bool drawn;   // the land is drawn of them
 } TerrainTileParams;
 
 typedef struct TerrainParams {
@@ -235,6 +236,9 @@ extern ColorStop terrain_altitudes[TERRAIN_ALTITUDES];
 
 // May there be lakes at their spill levels?
 bool terrain_holds_lakes(const TerrainParams *params);
+
+// May it be drawn of tiles? Only if it has no water, no forest and no surroundings of its own.
+bool terrain_can_be_tiled(const TerrainParams *params);
 
 // Does the land come from processes that wear it?
 bool terrain_evolves(const TerrainParams *params);

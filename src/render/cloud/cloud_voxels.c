@@ -181,7 +181,7 @@ bool cloud_voxels_new(CloudGrid *g, const Cloud *cloud, const Run *run, Error *e
     }
     *g = (CloudGrid){.voxels = sparse_volume_read(cloud->file, cloud->grid, run, e)};
     if (!g->voxels) {
-        return error_key(e, "file");
+        return e && e->key[0] ? false : error_key(e, "file"); // or it blames the grid
     }
     bool placed = lay_out(g, cloud);
     if (!placed || !(g->voxels->highest > 0.0f)) {
