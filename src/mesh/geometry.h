@@ -34,9 +34,9 @@ typedef struct Part {
     float *season;       // owned; of leaves, per instance: see InstanceLook; NULL = 0
     int64_t instance_count;
     CoarseMesh coarse[PART_COARSE_MOST]; // of an instanced mesh: from fine to coarse
-    HeightField *land; // owned; of a terrain whose maps are drawn: what the part shows, in the
-                       // scene; NULL = none
-    SprayParcels *spray;      // owned; what it throws up; NULL = nothing
+    HeightField *land;   // owned; of a terrain whose maps are drawn: what the part shows, in the
+                         // scene; NULL = none
+    SprayParcels *spray; // owned; what it throws up; NULL = nothing
 } Part;
 
 typedef struct Geometry {

@@ -1,5 +1,5 @@
-// Spray: parcels of air with droplets, as falls and breakers throw them up. Clouds of the kind spray
-// show them.
+// Spray: parcels of air with droplets, as falls and breakers throw them up. Clouds of the kind
+// spray show them.
 #ifndef RAMIFY_MESH_SPRAY_H
 #define RAMIFY_MESH_SPRAY_H
 

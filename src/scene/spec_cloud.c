@@ -7,9 +7,12 @@
 // All that are grown.
 #define GROWN (BIT(CLOUD_CUMULUS) | BIT(CLOUD_STRATUS) | BIT(CLOUD_STORM) | BIT(CLOUD_FOG))
 
-static const EnumName KINDS[] = {{"cumulus", CLOUD_CUMULUS}, {"stratus", CLOUD_STRATUS},
-                                 {"storm", CLOUD_STORM},     {"fog", CLOUD_FOG},
-                                 {"grid", CLOUD_GRID},       {"spray", CLOUD_SPRAY},
+static const EnumName KINDS[] = {{"cumulus", CLOUD_CUMULUS},
+                                 {"stratus", CLOUD_STRATUS},
+                                 {"storm", CLOUD_STORM},
+                                 {"fog", CLOUD_FOG},
+                                 {"grid", CLOUD_GRID},
+                                 {"spray", CLOUD_SPRAY},
                                  {0}};
 
 static const Key CLOUD_KEYS[] = {
@@ -66,7 +69,8 @@ static const Key CLOUD_KEYS[] = {
             "the wind blows to, in shares of its size; 0 = none."},
     {KEY_OF(Cloud, over, "over", KEY_TEXT), .kinds = BIT(CLOUD_FOG) | BIT(CLOUD_SPRAY),
      .doc = "Of spray, which needs it: name of a terrain whose waterfalls, or of a sea whose surf "
-            "before the steep land of its bed throws it up. Of fog: name of a terrain in whose hollows and valleys the fog lies, in high ones as in low "
+            "before the steep land of its bed throws it up. Of fog: name of a terrain in whose "
+            "hollows and valleys the fog lies, in high ones as in low "
             "ones: its thickness counts from a level that follows the low ground, and base does "
             "not count. Beyond the terrain's rim it goes on as over the terrain's copies. Default: "
             "fog of one level."},

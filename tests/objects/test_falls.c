@@ -418,8 +418,8 @@ static void strands_fall_into_the_pool(void **state)
     drop_valley(&v);
 }
 
-// Spray holds what leaves the foot until it rains out, as the closed form tells, beside its veil, and
-// hangs over the pool, no higher than the way of the fastest puff.
+// Spray holds what leaves the foot until it rains out, as the closed form tells, beside its veil,
+// and hangs over the pool, no higher than the way of the fastest puff.
 static void feet_throw_up_spray(void **state)
 {
     (void)state;

@@ -69,7 +69,7 @@ static void cliffs_throw_spray_up(void **state)
 static void beaches_and_lee_shores_do_not(void **state)
 {
     (void)state;
-    Waves *flat = shore_of(1.0f), *lee = shore_of(20.0f);
+    Waves *flat = shore_of(0.5f), *lee = shore_of(20.0f);
     lee->way.y = -1.0f;
     for (int k = 0; k < 6; k++) {
         SprayParcels *a = spray_at(flat, (float)k), *b = spray_at(lee, (float)k);

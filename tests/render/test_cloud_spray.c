@@ -1,5 +1,5 @@
-// Spray: its voxels hold what its parcels hold, and a ray through a parcel loses what the closed form
-// tells.
+// Spray: its voxels hold what its parcels hold, and a ray through a parcel loses what the closed
+// form tells.
 #include "render/cloud/cloud_spray.h"
 #include "render/cloud/clouds.h"
 
@@ -78,7 +78,8 @@ static void a_ray_through_a_parcel_loses_its_share(void **state)
         passed += (double)clouds_pass(clouds, &ray, 1.0f, &key) / TRIALS;
     }
     assert_true(fabs(passed - exp(-wanted)) <= 0.02);
-    assert_true(fabs((double)clouds_extinction(clouds, vec3(3, 40, -7)) - (double)extinction * middle) <= 0.05 * (double)extinction * middle);
+    assert_true(fabs((double)clouds_extinction(clouds, vec3(3, 40, -7)) -
+                     (double)extinction * middle) <= 0.05 * (double)extinction * middle);
     assert_true(clouds_extinction(clouds, vec3(3, 43, -7)) == 0.0f);
     clouds_free(clouds);
     free(one.parcel);

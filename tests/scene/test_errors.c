@@ -88,9 +88,9 @@ static const Case scenes[] = {
      ":2:28: clouds.0.over: object 'a' is of the kind tree; it must be a terrain"},
     {"objects: [{name: a, scatter: {afloat: true, things: [{stone: {}}]}}]\n",
      ":1:39: objects.a.scatter.afloat is true; then in_water must be true, too"},
-    {TREE "clouds: [{kind: spray, over: a}]\n",
-     ":2:30: clouds.0.over: object 'a' is of the kind tree; it must be a terrain with waterfalls or "
-     "a sea with a bed"},
+    {TREE "clouds: [{kind: spray, over: a}]\n", ":2:30: clouds.0.over: object 'a' is of the kind "
+                                                "tree; it must be a terrain with waterfalls or "
+                                                "a sea with a bed"},
     {TREE "clouds: [{kind: spray}]\n",
      ":2:10: clouds.0: spray needs the key 'over': the terrain with waterfalls, or the sea with a "
      "bed, that throws it up"},

@@ -1,5 +1,5 @@
-// Clouds over objects: the floor of fog is that of the land that has grown, also after changes; spray
-// is that of the falls.
+// Clouds over objects: the floor of fog is that of the land that has grown, also after changes;
+// spray is that of the falls.
 #include "scene_fixture.h"
 
 #include "land/cold_pool.h"

@@ -35,8 +35,8 @@ typedef struct Search {
     const ShapeSurface *surface; // NULL = the land
     double *area;                // m^2, of the surface's faces 0 .. i; NULL with the land
     PointHash *taken;            // NULL = places may be as near as they like
-    const HeightField *land; // of the terrain they stand on; NULL = none, or not known
-    Where where;             // maps that places are chosen by
+    const HeightField *land;     // of the terrain they stand on; NULL = none, or not known
+    Where where;                 // maps that places are chosen by
     const HeightField *wet; // the land that tells where its water is; NULL = unknown, or conditions
                             // on the water's depth decide
     float shares;           // of all things

@@ -1,10 +1,10 @@
-// What surf throws up where it meets steep land. Each crest that arrives squeezes water up the rock in
-// jets several times as high as the wave, which part into drops and fall back; fine ones hang in the
-// air until they have drifted off.
+// What surf throws up where it meets steep land. Each crest that arrives squeezes water up the rock
+// in jets several times as high as the wave, which part into drops and fall back; fine ones hang in
+// the air until they have drifted off.
 //
-// Jets: their speed is a few times that of the wave at the foot, sqrt(g H), and differs from gully to
-// gully and from crest to crest (Peregrine, "Water-Wave Impact on Walls", Annu. Rev. Fluid Mech. 35,
-// 2003).
+// Jets: their speed is a few times that of the wave at the foot, sqrt(g H), and differs from gully
+// to gully and from crest to crest (Peregrine, "Water-Wave Impact on Walls", Annu. Rev. Fluid Mech.
+// 35, 2003).
 #include "objects/sea/spray.h"
 
 #include "base/exact_math.h"
@@ -20,11 +20,11 @@ enum { STREAM_SPRAY = 77 };
 enum { JETS = 10, MIST = 3 }; // parcels a sample of the shore
 enum { NUMBER_DELAY, NUMBER_SPEED, NUMBER_ASIDE, NUMBER_LEAN, NUMBER_PLACE, NUMBERS };
 
-static const float CLIFF = 2.5f;    // m: least height of steep land within two samples
-static const float LEAST = 0.35f;   // m: wave height at the foot that splashes at all
-static const float FASTEST = 3.4f;  // times sqrt(g H)
-static const float ROW = 14.0f;     // m: size of stretches of the shore that a crest hits alike
-static const float LINGERS = 6.0f;  // s in which 1 - 1/e of the mist is gone
+static const float CLIFF = 1.2f;   // m: least height of steep land within two samples
+static const float LEAST = 0.35f;  // m: wave height at the foot that splashes at all
+static const float FASTEST = 3.4f; // times sqrt(g H)
+static const float ROW = 14.0f;    // m: size of stretches of the shore that a crest hits alike
+static const float LINGERS = 6.0f; // s in which 1 - 1/e of the mist is gone
 
 typedef struct Surf {
     const WavesShore *shore;
@@ -57,6 +57,24 @@ static bool find_wall(const Surf *s, int column, int row, Vec2 *off)
     return highest < -CLIFF && length > 0.0f && off->x * s->way.x + off->y * s->way.y < -0.15f;
 }
 
+// The height of the waves that come in, m: just before the wall they may be lower, since surf keeps
+// to the depth, but what breaks there runs on into the wall.
+static float height_before(const Surf *s, int column, int row)
+{
+    enum { REACH = 5 }; // samples
+    const WavesShore *shore = s->shore;
+    float share = 0.0f;
+    for (int k = 0; k <= REACH; k++) {
+        int x = column - (int)lrintf((float)k * s->way.x);
+        int z = row - (int)lrintf((float)k * s->way.y);
+        if (x >= 0 && z >= 0 && x < shore->columns && z < shore->rows) {
+            int64_t i = (int64_t)z * shore->columns + x;
+            share = fmaxf(share, shore->depth[i] > 0.0f ? shore->share[i * WAVES_TILES] : 0.0f);
+        }
+    }
+    return share * s->height;
+}
+
 static float number_of(uint64_t key, int parcel, int number)
 {
     return random_unit(random_key(key, (uint64_t)parcel * NUMBERS + (uint64_t)number));
@@ -80,10 +98,10 @@ static bool jet_parcel(const Surf *s, uint64_t key, int number, Vec2 off, float 
 }
 
 // Adds what hangs over the shore at a sample.
-static bool splash(const Surf *s, int64_t i, Vec2 at, Vec2 off, SprayParcels *spray, Error *e)
+static bool splash(const Surf *s, int64_t i, Vec2 at, Vec2 off, float height, SprayParcels *spray,
+                   Error *e)
 {
     const WavesShore *shore = s->shore;
-    float height = shore->share[i * WAVES_TILES] * s->height;
     float phase = (at.x * s->way.x + at.y * s->way.y + shore->shift[i * WAVES_TILES]) / s->length;
     float crests = s->time / s->period - phase, number = floorf(crests);
     float age = (crests - number) * s->period, wave = sqrtf((float)GRAVITY * height);
@@ -94,7 +112,7 @@ static bool splash(const Surf *s, int64_t i, Vec2 at, Vec2 off, SprayParcels *sp
         float speed = FASTEST * wave * clampf(0.45f + 1.3f * gust, 0.0f, 1.0f);
         float since = age + (float)last * s->period;
         uint64_t key = random_key(crest, (uint64_t)i);
-        float content = height * shore->cell * 0.1f * speed / JETS;
+        float content = height * shore->cell * 0.25f * speed / JETS;
         for (int k = 0; done && k < JETS + MIST && speed > wave; k++) {
             SprayParcel parcel = {.content = content};
             bool mist = k >= JETS;
@@ -133,10 +151,11 @@ SprayParcels *sea_spray(const SeaParams *params, const Waves *waves, uint64_t se
         for (int column = 0; done && column < shore->columns; column++) {
             int64_t i = (int64_t)row * shore->columns + column;
             Vec2 at = {shore->origin.x + (float)column * shore->cell,
-                       shore->origin.y + (float)row * shore->cell}, off;
-            float height = shore->share[i * WAVES_TILES] * s.height;
-            if (shore->depth[i] > 0.0f && height > LEAST && find_wall(&s, column, row, &off)) {
-                done = splash(&s, i, at, off, spray, e);
+                       shore->origin.y + (float)row * shore->cell},
+                 off;
+            if (shore->depth[i] > 0.0f && find_wall(&s, column, row, &off)) {
+                float height = height_before(&s, column, row);
+                done = height <= LEAST || splash(&s, i, at, off, height, spray, e);
             }
         }
     }

@@ -1,6 +1,7 @@
 // What a waterfall throws up. Falling water drags air down with it; at the foot this air escapes
 // sideways and up with the drops that the impact tears off, in puffs that widen, slow down and rain
-// out. Fine drops come off the strands on their way down too, the more the farther they have fallen.
+// out. Fine drops come off the strands on their way down too, the more the farther they have
+// fallen.
 #include "objects/terrain/spray.h"
 
 #include "base/exact_math.h"

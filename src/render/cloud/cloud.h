@@ -1,4 +1,5 @@
-// The description of clouds: heaps, sheets, storms, fog and spray of droplets that light passes through.
+// The description of clouds: heaps, sheets, storms, fog and spray of droplets that light passes
+// through.
 #ifndef RAMIFY_RENDER_CLOUD_CLOUD_H
 #define RAMIFY_RENDER_CLOUD_CLOUD_H
 
@@ -36,13 +37,13 @@ typedef struct Cloud {
     float wind;       // degrees from +Z toward +X: where the wind blows
     float center_x, center_z; // m; CLOUD_STORM
     float shelf;              // CLOUD_STORM: how far one overhangs, in shares of the size; 0 = none
-    const char *over;  // CLOUD_FOG: terrain whose low ground it lies on; CLOUD_SPRAY: object that
-                       // throws it up; NULL = none; borrowed
-    float pool;        // m: with over, radius within which the lowest land is its ground
-    float drift;       // CLOUD_FOG, 0..1: how far the wind has drawn it out
-    SprayParcels *spray;      // CLOUD_SPRAY: owned; NULL = not known yet
-    CloudFloor *floor; // with over: the level that it lies on; NULL = not known yet
-    int seed;          // of these clouds beside the scene's
+    const char *over;    // CLOUD_FOG: terrain whose low ground it lies on; CLOUD_SPRAY: object that
+                         // throws it up; NULL = none; borrowed
+    float pool;          // m: with over, radius within which the lowest land is its ground
+    float drift;         // CLOUD_FOG, 0..1: how far the wind has drawn it out
+    SprayParcels *spray; // CLOUD_SPRAY: owned; NULL = not known yet
+    CloudFloor *floor;   // with over: the level that it lies on; NULL = not known yet
+    int seed;            // of these clouds beside the scene's
     const char *file, *grid; // CLOUD_GRID: .vdb; NULL = its first grid of floats; borrowed
     Vec3 position, rotation; // m, degrees: of the file's origin
     float scale;             // m a unit of the file

@@ -73,7 +73,8 @@ static void range_of(const Splat *s, const SprayParcel *parcel, int axis, int *f
 }
 
 // Calls for all blocks that parcels touch: gives them numbers if they have none.
-static int32_t mark_blocks(const Splat *s, const SprayParcels *spray, const int blocks[3], int32_t *block)
+static int32_t mark_blocks(const Splat *s, const SprayParcels *spray, const int blocks[3],
+                           int32_t *block)
 {
     int32_t kept = 0;
     for (int64_t i = 0; i < spray->count; i++) {
@@ -163,8 +164,7 @@ SparseVolume *cloud_spray_volume(const SprayParcels *spray, Error *e)
     for (int64_t i = 0; block && i < all; i++) {
         block[i] = -1;
     }
-    s.volume =
-        block ? sparse_volume_new(blocks, mark_blocks(&s, spray, blocks, block), e) : NULL;
+    s.volume = block ? sparse_volume_new(blocks, mark_blocks(&s, spray, blocks, block), e) : NULL;
     if (s.volume) {
         for (int64_t i = 0; i < all; i++) {
             s.volume->block[i] = block[i];

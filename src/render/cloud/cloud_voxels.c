@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-enum { ACROSS = CELL * 2 }; // samples along a cell's side; PARTS of them
+enum { ACROSS = CELL * 2 };      // samples along a cell's side; PARTS of them
 enum { SPRAY_BYTES = 60000000 }; // about, of some falls or a kilometre of surf
 
 _Static_assert((int)PARTS == (int)ACROSS, "a part lies between samples");
