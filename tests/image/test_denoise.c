@@ -108,6 +108,51 @@ static void test_less_noise(void **state)
     free_scene(&s);
 }
 
+// Fog of few samples: noise as large as the light itself. What is left is judged by the means of
+// blocks wider than the filter's window reaches from their middles, where it would show as
+// blotches. One scale alone leaves 0.021.
+static void test_no_blotches_in_fog(void **state)
+{
+    (void)state;
+    enum { BLOCK = 20 };
+    Scene s = make_scene(0.0f);
+    for (int y = 0; y < HEIGHT; y++) {
+        for (int x = 0; x < WIDTH; x++) {
+            int64_t i = y * WIDTH + x;
+            float light = 0.4f + 0.1f * (float)x / WIDTH,
+                  n = random_normal(random_key(6, (uint64_t)i));
+            float seen = light * (1.0f + n);
+            set_pixel(s.truth, x, y, light, light, light);
+            set_pixel(s.noisy, x, y, seen, seen, seen);
+            set_pixel(s.albedo, x, y, 1, 1, 1);
+            set_pixel(s.normal, x, y, 0, 0, 0);
+            set_pixel(s.depth, x, y, INFINITY, 0, 0);
+            s.variance->pixel[i] = light * light;
+        }
+    }
+    Image *out = denoise(&s, 1.0f, 2);
+    assert_non_null(out);
+    double square = 0.0, mean = 0.0;
+    for (int block = 0; block < WIDTH / BLOCK * (HEIGHT / BLOCK); block++) {
+        double off = 0.0;
+        for (int k = 0; k < BLOCK * BLOCK; k++) {
+            int x = block % (WIDTH / BLOCK) * BLOCK + k % BLOCK;
+            int y = block / (WIDTH / BLOCK) * BLOCK + k / BLOCK;
+            int64_t i = 3 * (int64_t)(y * WIDTH + x);
+            off += (double)(out->pixel[i] - s.truth->pixel[i]) / (BLOCK * BLOCK);
+        }
+        square += off * off;
+        mean += off;
+    }
+    double blocks = WIDTH / BLOCK * (HEIGHT / BLOCK);
+    double blotches = sqrt(square / blocks - mean * mean / (blocks * blocks));
+    if (blotches > 0.016 || fabs(mean / blocks) > 0.005) {
+        fail_msg("blotches of %g about %g", blotches, mean / blocks);
+    }
+    image_free(out);
+    free_scene(&s);
+}
+
 // A lit body before a dark sky: no pixel of its outline, part body and part sky, comes out brighter
 // than the body.
 static void test_silhouettes_do_not_glow(void **state)
@@ -334,6 +379,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_less_noise),
+        cmocka_unit_test(test_no_blotches_in_fog),
         cmocka_unit_test(test_keeps_edges),
         cmocka_unit_test(test_clean_stays),
         cmocka_unit_test(test_threads_agree),
