@@ -419,10 +419,11 @@ World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error 
     if (!world) {
         return NULL;
     }
-    bool done = scene_give_settings(scene, world, e) &&
-                scene_place_objects(world, scene, NULL, NULL, false, run, stats, e) &&
-                ((scene_ground_clouds(world, scene, run, e) && scene_make_masks(world, scene, run, e)) ||
-                 scene_fail_at(scene, "", e));
+    bool done =
+        scene_give_settings(scene, world, e) &&
+        scene_place_objects(world, scene, NULL, NULL, false, run, stats, e) &&
+        ((scene_ground_clouds(world, scene, run, e) && scene_make_masks(world, scene, run, e)) ||
+         scene_fail_at(scene, "", e));
     if (!done) {
         world_free(world);
         return NULL;

@@ -51,8 +51,8 @@ static const Key CLOUD_KEYS[] = {
             "wide."},
     {KEY_OF(Cloud, extinction, "extinction", KEY_FLOAT), .high = 1, .unit = "1/m",
      .doc = "Extinction where droplets are dense, from a quarter of the thickness up, or at the "
-             "base of fog, where a grid is 1, or where spray leaves the foot of a fall: 0.05 = one "
-             "sees 60 m far in it; 0.003 for veils of ice. A storm's anvil has 0.03 to 0.25 of it."},
+            "base of fog, where a grid is 1, or where spray leaves the foot of a fall: 0.05 = one "
+            "sees 60 m far in it; 0.003 for veils of ice. A storm's anvil has 0.03 to 0.25 of it."},
     {KEY_OF(Cloud, softness, "softness", KEY_FLOAT), .kinds = BIT(CLOUD_CUMULUS) | BIT(CLOUD_STORM),
      .high = 1,
      .doc = "How far dry air has worn the borders: more with age, down the flanks, and of small "

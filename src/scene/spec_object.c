@@ -69,8 +69,9 @@ static const Key OBJECT_KEYS[] = {
     {KEY_OF(SceneObject, seed, "seed", KEY_UINT64), .high = 18446744073709551615.0,
      .doc = "Seed of this object; 0 = derived from the scene's seed and the object's name."},
     {KEY_OF(SceneObject, species_targets, "species_targets", KEY_BOOL),
-     .doc = "Do the targets of its species hold for it? false for a fallen, felled or broken plant, "
-            "which no longer has its species' measures; targets of the scene itself stay."},
+     .doc =
+         "Do the targets of its species hold for it? false for a fallen, felled or broken plant, "
+         "which no longer has its species' measures; targets of the scene itself stay."},
     {KEY_OF(SceneObject, clear_of, "clear_of", KEY_LIST),
      .count_offset = offsetof(SceneObject, clear_of_count), .count = 16, .table = &CLEAR_OF_TABLE,
      .doc = "Obstacles: objects that grow first and that this one keeps clear of (outtree, tree, "

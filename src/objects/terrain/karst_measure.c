@@ -51,7 +51,7 @@ static Region region(const Landscape *land, double level, int64_t i, uint8_t *se
         columns += (double)column;
         rows += (double)row;
         all.summit = land->rock[at] > land->rock[all.summit] ? at : all.summit;
-        const bool inside[] = {column > 0, column<side - 1, row> 0, row < side - 1};
+        const bool inside[] = {column != 0, column != side - 1, row != 0, row != side - 1};
         const int64_t next[] = {at - 1, at + 1, at - side, at + side};
         for (int k = 0; k < 4; k++) {
             all.whole = all.whole && inside[k];

@@ -67,9 +67,10 @@ typedef struct CloudGrid {
     const DetailNoise *detail; // borrowed
     Roughness rough;
     float base, thickness, extinction;
-    SparseVolume *voxels; // CLOUD_GRID and CLOUD_SPRAY: owned, and no nodes, detail or roughness; else NULL
-    Transform to_own;     // from the scene to its own space, where low and cells are
-    float sample;         // m between voxels
+    SparseVolume
+        *voxels; // CLOUD_GRID and CLOUD_SPRAY: owned, and no nodes, detail or roughness; else NULL
+    Transform to_own; // from the scene to its own space, where low and cells are
+    float sample;     // m between voxels
 } CloudGrid;
 
 // The cloud's form depends on key alone. Free with cloud_grid_clear, also after a failure.
