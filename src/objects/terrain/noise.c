@@ -168,7 +168,7 @@ static float sum_around(Around *a, float x, float y)
     for (int k = 0, i = 0; k < 9; k++) {
         float of_cell = 0.0f;
         for (; i < a->end[k]; i++) {
-            of_cell += value[i];
+            of_cell += value[i]; // cppcheck-suppress uninitvar ; end[k] <= end[8]
         }
         sum += of_cell;
     }
