@@ -55,11 +55,10 @@ static double tile_faces(const TerrainParams *terrain)
 {
     const double cell = 8.0 * (double)terrain->mesh_error; // share of the distance
     double samples = (double)terrain->tiles.count * terrain->tiles.cells;
-    double across = 2.0 * terrain->beyond + 1.0, faces = 0.0;
-    double near = (double)terrain->size / samples / cell;
-    for (double r = near; r < 0.5 * across * (double)terrain->size; r *= 2.0) {
-        faces += 2.0 * 3.0 * 3.14159265 / (cell * cell);
-    }
+    double across = 2.0 * terrain->beyond + 1.0;
+    double near = (double)terrain->size / samples / cell, far = 0.5 * across * terrain->size;
+    double rings = fmax(ceil(log2(far / near)), 0.0);
+    double faces = rings * 2.0 * 3.0 * 3.14159265 / (cell * cell);
     return fmin(faces, 2.0 * across * across * samples * samples);
 }
 
