@@ -326,7 +326,6 @@ walls="$walls, {shape: box, size: [0.2, 0.9, 7.4], position: [-3.6, 0, 0]}, {sha
 movie frost-bubble-turn frost-bubble 60 crop=438:246:21:24 "--spin --turns 1 --grow 0.16:0.6 --fps 12" --size 480x270 \
     --samples 16 --set "objects.wood.shape.envelope=[$walls]"
 still coast coast
-still waterfall waterfall
 still karst karst
 still meander meander
 still delta delta
