@@ -234,11 +234,11 @@ static bool check_layers(const Mapping *mapping, const Scene *scene)
 {
     const Node *given = node_get(mapping->given, "materials");
     given = given ? given->first : NULL;
-    for (int i = 0; i < scene->material_count; i++, given = given->next) {
+    for (int i = 0; given && i < scene->material_count; i++, given = given->next) {
         const Material *below = &scene->materials[i];
         const Node *layer = node_get(given, "layers");
         layer = layer ? layer->first : NULL;
-        for (int k = 0; k < below->layer_count; k++, layer = layer->next) {
+        for (int k = 0; layer && k < below->layer_count; k++, layer = layer->next) {
             const Material *m = scene_material(scene, below->layers[k].material);
             const Node *named = node_get(layer, "material");
             char where[128];
