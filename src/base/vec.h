@@ -86,6 +86,12 @@ static inline Vec3 vec3_neg(Vec3 a)
     return vec3(-a.x, -a.y, -a.z);
 }
 
+// Component of an axis: 0 = x, 1 = y, 2 = z.
+static inline float vec3_axis(Vec3 v, int axis)
+{
+    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
+}
+
 static inline float vec3_dot(Vec3 a, Vec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -4,14 +4,9 @@
 
 #include <stdlib.h>
 
-static float coordinate(Vec3 p, int axis)
-{
-    return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
-}
-
 static int compare(const TreePoint *a, const TreePoint *b, int axis)
 {
-    float p = coordinate(a->position, axis), q = coordinate(b->position, axis);
+    float p = vec3_axis(a->position, axis), q = vec3_axis(b->position, axis);
     if (p != q) {
         return p < q ? -1 : 1;
     }
@@ -105,7 +100,7 @@ static void search(const TreePoint *point, int64_t count, Nearest *nearest)
     const TreePoint *at = &point[middle], *upper = at + 1;
     Vec3 v = vec3_sub(nearest->p, at->position);
     take_nearer(nearest, at, v);
-    float beyond = coordinate(v, at->axis);
+    float beyond = vec3_axis(v, at->axis);
     bool after = beyond > 0.0f;
     search(after ? upper : point, after ? count - middle - 1 : middle, nearest);
     if (beyond * beyond <= nearest->distance2) { // equally near points may lie on the other side

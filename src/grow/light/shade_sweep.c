@@ -5,23 +5,18 @@
 
 #include <stdlib.h>
 
-static float component(Vec3 v, int axis)
-{
-    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
-}
-
 // The axis along which the direction is longest: its layers are crossed one by one.
 static int steepest_axis(Vec3 d)
 {
     int axis = fabsf(d.x) > fabsf(d.y) ? 0 : 1;
-    return fabsf(d.z) > fabsf(component(d, axis)) ? 2 : axis;
+    return fabsf(d.z) > fabsf(vec3_axis(d, axis)) ? 2 : axis;
 }
 
 bool leaf_layer_init(LeafLayer *layer, const ShadeGrid *grid, int ring, int threads, Error *e)
 {
     SkyPart part[SKY_RING_PARTS];
     sky_ring(ring, part);
-    float way = grid->cell / fabsf(component(part[0].toward, steepest_axis(part[0].toward)));
+    float way = grid->cell / fabsf(vec3_axis(part[0].toward, steepest_axis(part[0].toward)));
     float depth = way / (grid->cell * grid->cell * grid->cell); // optical, of leaves of area 1
     layer->passes = memory_alloc(grid->count, sizeof *layer->passes, e);
     layer->catches = layer->passes ? memory_alloc(grid->count, sizeof *layer->catches, e) : NULL;
@@ -63,9 +58,9 @@ static Sweep plan_sweep(const ShadeGrid *grid, const LeafLayer *layer, const Sky
     const int64_t stride[3] = {1, (int64_t)grid->size[0] * grid->size[2], grid->size[0]};
     static const int row_axis[3] = {1, 2, 1}, column_axis[3] = {2, 0, 0};
     int axis = steepest_axis(part->toward), u = row_axis[axis], v = column_axis[axis];
-    float steep = component(part->toward, axis);
-    float a = component(part->toward, u) / fabsf(steep);
-    float b = component(part->toward, v) / fabsf(steep);
+    float steep = vec3_axis(part->toward, axis);
+    float a = vec3_axis(part->toward, u) / fabsf(steep);
+    float b = vec3_axis(part->toward, v) / fabsf(steep);
     Sweep sweep = {.layer = layer,
                    .layers = grid->size[axis],
                    .rows = grid->size[u],

@@ -10,11 +10,6 @@
 #define LEAST 1.5f    // and at least of any: it widens to that
 enum { MOST_ACROSS = 1536, MOST_SAMPLES = 30000000 };
 
-static float along(Vec3 v, int axis)
-{
-    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
-}
-
 typedef struct Splat {
     SparseVolume *volume;
     Vec3 low;    // m, of sample (0, 0, 0)
@@ -67,7 +62,7 @@ float cloud_spray_voxel(const SprayParcels *spray)
 static void range_of(const Splat *s, const SprayParcel *parcel, int axis, int *first, int *last)
 {
     float reach = fmaxf(parcel->radius, LEAST * s->voxel) / s->voxel;
-    float at = (along(parcel->center, axis) - along(s->low, axis)) / s->voxel;
+    float at = (vec3_axis(parcel->center, axis) - vec3_axis(s->low, axis)) / s->voxel;
     *first = (int)ceilf(at - reach);
     *last = (int)floorf(at + reach);
 }
@@ -156,7 +151,7 @@ SparseVolume *cloud_spray_volume(const SprayParcels *spray, Error *e)
     int blocks[3];
     int64_t all = 1;
     for (int axis = 0; axis < 3; axis++) {
-        float size = along(box.high, axis) - along(s.low, axis);
+        float size = vec3_axis(box.high, axis) - vec3_axis(s.low, axis);
         blocks[axis] = (int)(size / voxel) / SPARSE_SIDE + 2;
         all *= blocks[axis];
     }
@@ -172,7 +167,7 @@ SparseVolume *cloud_spray_volume(const SprayParcels *spray, Error *e)
         Transform *t = &s.volume->to_index;
         for (int axis = 0; axis < 3; axis++) {
             t->m[axis][axis] = 1.0f / voxel;
-            t->m[axis][3] = -along(s.low, axis) / voxel;
+            t->m[axis][3] = -vec3_axis(s.low, axis) / voxel;
         }
         fill(&s, spray);
     }

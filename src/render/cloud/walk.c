@@ -3,11 +3,6 @@
 // m: no cloud is seen beyond, where the Earth's curve has hidden it.
 static const float REACH = 90000.0f;
 
-static inline float coordinate(Vec3 v, int axis)
-{
-    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
-}
-
 // The part of the ray within the grid; false if there is none.
 static bool clip(const CloudGrid *g, const CloudRay *ray, float *near, float *far)
 {
@@ -17,8 +12,8 @@ static bool clip(const CloudGrid *g, const CloudRay *ray, float *near, float *fa
         if (g->repeats && axis != 1) {
             continue;
         }
-        float low = coordinate(g->low, axis), d = coordinate(ray->direction, axis);
-        float high = low + g->voxel * (float)g->count[axis], o = coordinate(ray->origin, axis);
+        float low = vec3_axis(g->low, axis), d = vec3_axis(ray->direction, axis);
+        float high = low + g->voxel * (float)g->count[axis], o = vec3_axis(ray->origin, axis);
         if (d == 0.0f) {
             if (o < low || o > high) {
                 return false;
@@ -154,8 +149,8 @@ bool walk_begin(Walk *w, const CloudGrid *g, const CloudRay *scene_ray, bool who
     }
     float side = g->voxel * CELL;
     for (int axis = 0; axis < 3; axis++) {
-        float d = coordinate(ray->direction, axis);
-        float o = coordinate(ray->origin, axis) - coordinate(g->low, axis);
+        float d = vec3_axis(ray->direction, axis);
+        float o = vec3_axis(ray->origin, axis) - vec3_axis(g->low, axis);
         int at = (int)floorf((o + w->near * d) / side);
         float border = side * (float)(at + (d < 0.0f ? 0 : 1));
         w->step[axis] = d < 0.0f ? -1 : 1;

@@ -85,14 +85,9 @@ typedef struct Builder {
     int32_t forks, used; // so far; used: nodes of the tree
 } Builder;
 
-static float component(Vec3 v, int axis)
-{
-    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
-}
-
 static float centre(const LightBounds *b, int axis)
 {
-    return 0.5f * (component(b->box.low, axis) + component(b->box.high, axis));
+    return 0.5f * (vec3_axis(b->box.low, axis) + vec3_axis(b->box.high, axis));
 }
 
 static int bucket_of(float x, float low, float high)
@@ -155,20 +150,20 @@ static int64_t split(const Builder *b, int32_t *item, int64_t count, int depth)
     float longest = fmaxf(extent.x, fmaxf(extent.y, extent.z)), cost = INFINITY;
     int axis = -1, border = -1;
     for (int k = 0; k < 3 && depth < DEEPEST; k++) {
-        float width = component(extent, k);
+        float width = vec3_axis(extent, k);
         if (!(width > 0.0f)) {
             continue;
         }
-        int found = best_border(b, item, count, k, component(centres.low, k),
-                                component(centres.high, k), longest / width, &cost);
+        int found = best_border(b, item, count, k, vec3_axis(centres.low, k),
+                                vec3_axis(centres.high, k), longest / width, &cost);
         if (found >= 0) {
             axis = k;
             border = found;
         }
     }
     int64_t first = axis < 0 ? 0
-                             : part_items(b, item, count, axis, component(centres.low, axis),
-                                          component(centres.high, axis), border);
+                             : part_items(b, item, count, axis, vec3_axis(centres.low, axis),
+                                          vec3_axis(centres.high, axis), border);
     return first > 0 && first < count ? first : count / 2;
 }
 
