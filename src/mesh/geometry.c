@@ -14,7 +14,7 @@ void part_free_meshes(Part *part)
     }
 }
 
-static void part_clear(Part *part)
+void part_clear(Part *part)
 {
     part_free_meshes(part);
     curves_free(part->curves);

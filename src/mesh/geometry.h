@@ -66,6 +66,8 @@ static inline InstanceLook part_look(const Part *part, int64_t instance)
 // Frees the part's mesh and its coarse forms and sets them to NULL.
 void part_free_meshes(Part *part);
 
+void part_clear(Part *part); // frees all that a part owns
+
 // Appends a part. Takes ownership of all that it owns, even on failure.
 bool geometry_add(Geometry *geometry, Part part, Error *e);
 

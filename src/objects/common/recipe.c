@@ -16,11 +16,7 @@ void grown_clear(Grown *grown)
 bool placing_add(const Placing *placing, Part part, int role, Error *e)
 {
     if (!part.mesh && !part.curves) {
-        free(part.instance);
-        free(part.variation);
-        free(part.season);
-        height_field_free(part.land);
-        spray_free(part.spray);
+        part_clear(&part);
         return false;
     }
     part.kind = part.curves ? PART_CURVES : PART_MESH;
