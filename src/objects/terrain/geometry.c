@@ -5,18 +5,25 @@
 #include "mesh/curves.h"
 #include "objects/terrain/form.h"
 
-// Gives a mesh of the land its beds, in the mesh's space.
-static bool give_strata(Mesh *mesh, const Terrain *terrain, Error *e)
+// Moves a mesh of the land to the terrain's place and gives it its beds. Takes ownership; NULL
+// stays NULL. ERROR_MEMORY: NULL.
+static Mesh *put_in_place(Mesh *mesh, const Terrain *terrain, Error *e)
 {
+    Vec3 place = terrain->params->position;
     bool one = !terrain_form(terrain->params)->plateau && terrain->params->strata.bed_count == 0;
+    for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
+        mesh->position[i] = vec3_add(mesh->position[i], place);
+    }
     if (!mesh || !terrain->strata || one) {
         return mesh;
     }
     mesh->strata = strata_copy(terrain->strata, e);
-    if (mesh->strata) {
-        mesh->strata->origin = vec3_add(mesh->strata->origin, terrain->params->position);
+    if (!mesh->strata) {
+        mesh_free(mesh);
+        return NULL;
     }
-    return mesh->strata;
+    mesh->strata->origin = vec3_add(mesh->strata->origin, place);
+    return mesh;
 }
 
 // The square's copy number (column, row) away: odd ones are mirrored, so that borders meet, unless
@@ -83,14 +90,8 @@ static bool add_beyond(const Terrain *terrain, const HeightField *field, const P
     HeightMeshParams meshing = {.error = 0.25f * params->mesh_error * params->size,
                                 .keep = terrain_form(params)->water ? terrain->bank : NULL};
     Mesh *mesh = height_mesh_new(field, &meshing, e);
-    for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
-        mesh->position[i] = vec3_add(mesh->position[i], params->position);
-    }
-    if (!give_strata(mesh, terrain, e)) {
-        mesh_free(mesh);
-        return false;
-    }
-    return terrain_add_copies(mesh, params, placing, TERRAIN_LAND, e);
+    mesh = put_in_place(mesh, terrain, e);
+    return mesh && terrain_add_copies(mesh, params, placing, TERRAIN_LAND, e);
 }
 
 static bool add_land(const Terrain *terrain, const HeightField *field, const Placing *placing,
@@ -110,14 +111,8 @@ static bool add_land(const Terrain *terrain, const HeightField *field, const Pla
         mesh->position[i].y = 0.0f;
         mesh->normal[i] = vec3(0, 1, 0);
     }
-    for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
-        mesh->position[i] = vec3_add(mesh->position[i], params->position);
-    }
-    if (!give_strata(mesh, terrain, e)) {
-        mesh_free(mesh);
-        return false;
-    }
-    return placing_add(placing, (Part){.mesh = mesh}, TERRAIN_LAND, e);
+    Part part = {.mesh = put_in_place(mesh, terrain, e)};
+    return placing_add(placing, part, TERRAIN_LAND, e);
 }
 
 // The land and what lies beyond, of its tiles.
@@ -142,14 +137,8 @@ static bool add_tiles(const Terrain *terrain, const HeightField *field, const Pl
                      .beyond = params->beyond,
                      .curve = (float)(0.5 / earth)};
     Mesh *mesh = tile_mesh_new(field, &grid, &view, placing->recipe->run, e);
-    for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
-        mesh->position[i] = vec3_add(mesh->position[i], params->position);
-    }
-    if (!give_strata(mesh, terrain, e)) {
-        mesh_free(mesh);
-        return false;
-    }
-    return placing_add(placing, (Part){.mesh = mesh}, TERRAIN_LAND, e);
+    Part part = {.mesh = put_in_place(mesh, terrain, e)};
+    return placing_add(placing, part, TERRAIN_LAND, e);
 }
 
 // The tree as lines on the plane, their thickness in proportion to its radii.
