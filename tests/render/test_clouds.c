@@ -574,7 +574,7 @@ static void section(const CloudSet *clouds, const Cloud *cloud, float share, int
     for (int i = 0; i < MAP * MAP; i++) {
         Vec3 p = vec3(side * (float)(i % MAP - MAP / 2), cloud->base + share * cloud->thickness,
                       side * (float)(i / MAP - MAP / 2));
-        filled[i] = clouds_extinction(clouds, p) > 0.001f; // dims to 1/e over a kilometre
+        filled[i] = clouds_extinction(clouds, p) > 0.003f; // dims to 1/e over 330 m
         *all += filled[i];
     }
     for (int i = 0; i < MAP * MAP; i++) {
