@@ -300,6 +300,24 @@ static Land find_land(const Scene *scene, const OwnSpace *own, GroundObject *gro
     return (Land){0};
 }
 
+// Is there fog, or is there spray, over the object of that name?
+static bool has_cloud_over(const Scene *scene, const char *name, bool spray)
+{
+    for (int i = 0; i < scene->cloud_count; i++) {
+        const Cloud *cloud = &scene->clouds[i];
+        bool over = cloud->over && strcmp(cloud->over, name) == 0;
+        if (over && (cloud->kind == CLOUD_SPRAY) == spray) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool scene_keeps_spray(const Scene *scene, int index)
+{
+    return has_cloud_over(scene->whole ? scene->whole : scene, scene->objects[index].name, true);
+}
+
 bool scene_keeps_land(const Scene *scene, int index)
 {
     const char *name = scene->objects[index].name;
@@ -309,10 +327,8 @@ bool scene_keeps_land(const Scene *scene, int index)
             return true;
         }
     }
-    for (int i = 0; i < scene->cloud_count; i++) {
-        if (scene->clouds[i].over && strcmp(scene->clouds[i].over, name) == 0) {
-            return true;
-        }
+    if (has_cloud_over(scene, name, false)) {
+        return true;
     }
     for (int i = 0; i < scene->object_count; i++) {
         const char *over = scene_object_over(&scene->objects[i]);
@@ -341,6 +357,7 @@ static bool add_geometry(World *world, const Making *m, Error *e)
                        .further = further,
                        .object = m->index,
                        .keep_land = scene_keeps_land(m->scene, m->index),
+                       .keep_spray = scene_keeps_spray(m->scene, m->index),
                        .around = {.eye = &world->camera.position,
                                   .material = world->material,
                                   .flood = m->kind->reads_water ? &water.flood : NULL,

@@ -60,6 +60,9 @@ bool scene_place_object(World *world, const Scene *scene, int index, Shared shar
 // it or for fog in its valleys?
 bool scene_keeps_land(const Scene *scene, int index);
 
+// Does a cloud show the spray that the object throws up?
+bool scene_keeps_spray(const Scene *scene, int index);
+
 // Places the objects for which `placed` is false (NULL = all) in an order in which obstacles come
 // first, then puts the world's parts into the order of the scene's objects. growths: see Shared.
 // keep: keep the growths also of objects that do not contend.

@@ -90,6 +90,7 @@ static bool object_fits(const SceneBuilder *builder, const Scene *scene, int ind
     bool reads_scene = kind->reads_scene || scene_object_has_neighbours(&scene->objects[index]);
     return same_object(old, scene, index) &&
            scene_keeps_land(old, index) == scene_keeps_land(scene, index) &&
+           scene_keeps_spray(old, index) == scene_keeps_spray(scene, index) &&
            (alike || !reads_scene) &&
            (!kind->reads_water || scene_flood_hash(old) == scene_flood_hash(scene)) &&
            (!kind->grow || old->grow_to == scene->grow_to);

@@ -374,9 +374,22 @@ static Geometry fall_parts(const Valley *v, int threads)
     Recipe recipe = {.seed = 5, .label = "land", .run = &run};
     Geometry geometry = {0};
     static const int material[4] = {0, 1, 2, 3};
-    Placing placing = {.recipe = &recipe, .geometry = &geometry, .material = material};
+    Placing placing = {
+        .recipe = &recipe, .geometry = &geometry, .material = material, .keep_spray = true};
     assert_true(terrain_add_falls(&v->terrain, v->field, &placing, &e));
     return geometry;
+}
+
+// Lays a river over a stepped valley: one wide fall. Returns the node at its lip.
+static int64_t make_wide_fall(Valley *v, Geometry *geometry)
+{
+    *v = make_valley(stepped);
+    v->params.rivers.runoff = 20.0f;
+    lay(v);
+    int64_t lip = -1;
+    assert_int_equal(count_falls(v, &lip), 1);
+    *geometry = fall_parts(v, 1);
+    return lip;
 }
 
 // The strands of a fall lie between the parabolas of the slowest and the fastest, on both sides of
@@ -384,12 +397,9 @@ static Geometry fall_parts(const Valley *v, int threads)
 static void strands_fall_into_the_pool(void **state)
 {
     (void)state;
-    Valley v = make_valley(stepped);
-    v.params.rivers.runoff = 20.0f;
-    lay(&v);
-    int64_t lip = -1;
-    assert_int_equal(count_falls(&v, &lip), 1);
-    Geometry geometry = fall_parts(&v, 1);
+    Valley v;
+    Geometry geometry;
+    int64_t lip = make_wide_fall(&v, &geometry);
     assert_int_equal(geometry.count, 1);
     const Mesh *mesh = geometry.part[0].mesh;
     assert_true(mesh->vertex_count > 10000 && mesh->foam);
@@ -455,12 +465,9 @@ static void feet_throw_up_spray(void **state)
 static void falls_carry_their_spray(void **state)
 {
     (void)state;
-    Valley v = make_valley(stepped);
-    v.params.rivers.runoff = 20.0f;
-    lay(&v);
-    int64_t lip = -1;
-    assert_int_equal(count_falls(&v, &lip), 1);
-    Geometry geometry = fall_parts(&v, 1);
+    Valley v;
+    Geometry geometry;
+    int64_t lip = make_wide_fall(&v, &geometry);
     const SprayParcels *spray = geometry.part[0].spray;
     assert_true(spray && spray->count > 1000);
     float pool = v.terrain.water->position[v.terrain.water->parent[lip]].y;

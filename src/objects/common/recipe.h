@@ -57,6 +57,7 @@ typedef struct Placing {
     const int *further;  // the same of Kind.further_material; NULL = it has none
     int object;          // index in the scene
     bool keep_land;      // maps of the land will be drawn: its heights stay with its first part
+    bool keep_spray;     // a cloud shows the spray: it stays with the parts that throw it up
     Surroundings around;
 } Placing;
 

@@ -42,13 +42,14 @@ bool sea_geometry(const void *given, const Grown *grown, const Placing *placing,
     (void)grown;
     const SeaParams *params = given;
     Waves *waves = make_waves(params, placing->recipe, e);
-    SprayParcels *spray = waves ? sea_spray(params, waves, placing->recipe->seed, e) : NULL;
-    if (!spray) {
+    Part part = {0};
+    if (waves && placing->keep_spray &&
+        !(part.spray = sea_spray(params, waves, placing->recipe->seed, e))) {
         waves_free(waves);
         return false;
     }
-    Part part = {.mesh = sea_mesh(params, placing->around.eye, waves, placing->recipe->run, e),
-                 .spray = spray};
+    part.mesh =
+        waves ? sea_mesh(params, placing->around.eye, waves, placing->recipe->run, e) : NULL;
     return placing_add(placing, part, 0, e);
 }
 

@@ -318,10 +318,8 @@ bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const P
         FallMesher f = {.terrain = terrain, .field = field, .lip = (int32_t)i, .columns = columns};
         f.level = fmaxf(water->position[water->parent[i]].y, lake);
         Part part = {.mesh = fall_mesh(&f, main, e)};
-        part.spray = part.mesh ? fall_spray(&f, e) : NULL;
-        if (part.mesh && !part.spray) {
-            mesh_free(part.mesh);
-            part.mesh = NULL;
+        if (part.mesh && placing->keep_spray && !(part.spray = fall_spray(&f, e))) {
+            part_free_meshes(&part);
         }
         done = placing_add(placing, part, TERRAIN_WATER, e);
     }
