@@ -316,6 +316,11 @@ typedef struct RamifyMeasures RamifyMeasures; // a list of named numbers
 RAMIFY_API RamifyMeasures *ramify_measure(const RamifyScene *scene, int index, const RamifyRun *run,
                                           RamifyError *error);
 
+// Measures all objects; quicker than one by one where several stand on the same land.
+// measures: ramify_scene_object_count entries, each to be freed; all are NULL after a failure.
+RAMIFY_API bool ramify_measure_all(const RamifyScene *scene, RamifyMeasures **measures,
+                                   const RamifyRun *run, RamifyError *error);
+
 // Measures of any out-tree, and of any land.
 RAMIFY_API RamifyMeasures *ramify_tree_measure(const RamifyTree *tree, RamifyError *error);
 RAMIFY_API RamifyMeasures *ramify_land_measure(const RamifyLand *land, RamifyError *error);

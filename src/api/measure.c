@@ -41,6 +41,32 @@ RamifyMeasures *ramify_measure(const RamifyScene *scene, int index, const Ramify
     return hand_list(list, filled, &e, error);
 }
 
+bool ramify_measure_all(const RamifyScene *scene, RamifyMeasures **measures, const RamifyRun *run,
+                        RamifyError *error)
+{
+    Error e = {0};
+    Run own = api_run(run);
+    int count = scene_of(scene)->object_count;
+    MeasureList *lists = memory_alloc_zero(count, sizeof *lists, &e);
+    bool done = lists && scene_measure_objects(scene_of(scene), NULL, &own, lists, &e);
+    for (int i = 0; i < count; i++) {
+        MeasureList *list = done ? new_list(&e) : NULL;
+        done = done && list;
+        if (done) {
+            *list = lists[i];
+        } else if (lists) {
+            measures_clear(&lists[i]);
+        }
+        measures[i] = (RamifyMeasures *)(void *)list;
+    }
+    free(lists);
+    for (int i = 0; !done && i < count; i++) {
+        ramify_measures_free(measures[i]);
+        measures[i] = NULL;
+    }
+    return done || api_fail(error, &e);
+}
+
 RamifyMeasures *ramify_tree_measure(const RamifyTree *tree, RamifyError *error)
 {
     Error e = {0};

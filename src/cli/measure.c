@@ -207,21 +207,25 @@ static bool judge_targets(const RamifyScene *scene, const double *values, Ramify
 static bool measure_objects(const Options *options, const RamifyScene *scene, Subject *subjects,
                             int *count, RamifyError *e)
 {
+    RamifyMeasures **measures =
+        allocate(ramify_scene_object_count(scene), sizeof(RamifyMeasures *), e);
+    if (!measures) {
+        return false;
+    }
     Progress progress;
     RamifyRun run = command_run(options, &progress);
-    bool done = true;
+    bool done = ramify_measure_all(scene, measures, &run, e);
+    progress_end(&progress);
     for (int i = 0; done && i < ramify_scene_object_count(scene); i++) {
         RamifyObjectInfo object;
         ramify_scene_object(scene, i, &object);
-        RamifyMeasures *measures = ramify_measure(scene, i, &run, e);
-        done = measures;
-        if (done && ramify_measures_count(measures) > 0) {
-            subjects[(*count)++] = (Subject){object.name, object.kind, measures};
+        if (ramify_measures_count(measures[i]) > 0) {
+            subjects[(*count)++] = (Subject){object.name, object.kind, measures[i]};
         } else {
-            ramify_measures_free(measures);
+            ramify_measures_free(measures[i]);
         }
     }
-    progress_end(&progress);
+    free(measures);
     return done;
 }
 

@@ -28,20 +28,19 @@ static bool unknown_measure(const Scene *scene, const SceneTarget *target,
     return false;
 }
 
-// Measures object number index for all targets that name it.
-static bool measure_object(const Scene *scene, int index, const Run *run, double *values, Error *e)
+// The values of all targets that name object number index, from its measures.
+static bool find_values(const Scene *scene, int index, const MeasureList *list, double *values,
+                        Error *e)
 {
-    MeasureList list = {0};
-    bool done = scene_measure(scene, index, run, &list, e);
+    bool done = true;
     for (int i = 0; done && i < scene->target_count; i++) {
         const SceneTarget *target = &scene->targets[i];
         if (strcmp(target->object, scene->objects[index].name) == 0) {
-            const Measure *measure = measures_find(&list, target->measure);
-            done = measure || unknown_measure(scene, target, &list, e);
+            const Measure *measure = measures_find(list, target->measure);
+            done = measure || unknown_measure(scene, target, list, e);
             values[i] = measure ? measure->value : 0.0;
         }
     }
-    measures_clear(&list);
     return done;
 }
 
@@ -56,10 +55,19 @@ static bool is_named(const Scene *scene, const char *object)
 
 bool misfit_measure(const Scene *scene, const Run *run, double *values, Error *e)
 {
-    bool done = true;
+    bool *named = memory_alloc_zero(scene->object_count, sizeof *named, e);
+    MeasureList *list = memory_alloc_zero(scene->object_count, sizeof *list, e);
+    bool done = named && list;
     for (int i = 0; done && i < scene->object_count; i++) {
-        done = !is_named(scene, scene->objects[i].name) || measure_object(scene, i, run, values, e);
+        named[i] = is_named(scene, scene->objects[i].name);
     }
+    done = done && scene_measure_objects(scene, named, run, list, e);
+    for (int i = 0; list && i < scene->object_count; i++) {
+        done = done && (!named[i] || find_values(scene, i, &list[i], values, e));
+        measures_clear(&list[i]);
+    }
+    free(list);
+    free(named);
     return done;
 }
 

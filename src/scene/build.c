@@ -201,30 +201,49 @@ static bool measure_land(const Making *m, MeasureList *list, Error *e)
 }
 
 // A kind that neither grows nor has its own measures is built and measured by its geometry.
-static bool measure_built(const Scene *scene, int index, const Run *run, MeasureList *list,
-                          Error *e)
+static bool measure_built(const Scene *scene, int index, Shared shared, const Run *run,
+                          MeasureList *list, Error *e)
 {
     BuildStats stats = {0};
     World *world = world_new(e);
     bool done = world && scene_give_settings(scene, world, e) &&
-                scene_place_object(world, scene, index, (Shared){0}, run, &stats, e) &&
+                scene_place_object(world, scene, index, shared, run, &stats, e) &&
                 geometry_measure(&world->geometry, list, e);
     world_free(world);
     return done;
 }
 
-bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e)
+static bool measure_object(const Scene *scene, int index, Shared shared, const Run *run,
+                           MeasureList *list, Error *e)
 {
     const Kind *kind = scene->objects[index].kind;
     if (!kind->grow && !kind->measure) {
-        return measure_built(scene, index, run, list, e);
+        return measure_built(scene, index, shared, run, list, e);
     }
     Making m;
-    bool done = making_begin(&m, scene, index, run, e) && making_grow(&m, (Shared){0}, e) &&
+    bool done = making_begin(&m, scene, index, run, e) && making_grow(&m, shared, e) &&
                 (!m.grown.tree || out_tree_measure(m.grown.tree, list, e)) &&
                 measure_land(&m, list, e) &&
                 (!kind->measure || kind->measure(m.params, &m.grown, &m.recipe, list, e));
     return making_end(&m, done, e);
+}
+
+bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e)
+{
+    return measure_object(scene, index, (Shared){0}, run, list, e);
+}
+
+bool scene_measure_objects(const Scene *scene, const bool *wanted, const Run *run,
+                           MeasureList *list, Error *e)
+{
+    Surfaces *surfaces = surfaces_new(scene, NULL, e);
+    bool done = surfaces;
+    for (int i = 0; done && i < scene->object_count; i++) {
+        done = (wanted && !wanted[i]) ||
+               measure_object(scene, i, (Shared){.surfaces = surfaces}, run, &list[i], e);
+    }
+    surfaces_free(surfaces);
+    return done;
 }
 
 static int find_material(const World *world, const char *name)

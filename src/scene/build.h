@@ -44,6 +44,11 @@ uint64_t scene_object_seed(const Scene *scene, int index);
 // measured by its geometry.
 bool scene_measure(const Scene *scene, int index, const Run *run, MeasureList *list, Error *e);
 
+// The same of all objects for which `wanted` is true (NULL = all). What several stand on is grown
+// once for them. list: an entry per object, which the caller clears, also after a failure.
+bool scene_measure_objects(const Scene *scene, const bool *wanted, const Run *run,
+                           MeasureList *list, Error *e);
+
 // Builds the whole world. It borrows strings from the scene: free the world first.
 // stats may be NULL.
 World *scene_build(const Scene *scene, const Run *run, BuildStats *stats, Error *e);

@@ -216,6 +216,36 @@ static void measures_are_those_of_the_tree(void **state)
     ramify_scene_free(scene);
 }
 
+static void all_measures_are_those_of_each(void **state)
+{
+    (void)state;
+    RamifyError error = {0};
+    RamifyScene *scene = load();
+    RamifyMeasures *all[OBJECTS];
+    assert_true(ramify_measure_all(scene, all, NULL, &error));
+    for (int i = 0; i < OBJECTS; i++) {
+        RamifyMeasures *one = ramify_measure(scene, i, NULL, &error);
+        assert_int_equal(ramify_measures_count(all[i]), ramify_measures_count(one));
+        for (int k = 0; k < ramify_measures_count(one); k++) {
+            RamifyMeasure a, b;
+            ramify_measures_get(all[i], k, &a);
+            ramify_measures_get(one, k, &b);
+            assert_string_equal(a.name, b.name);
+            assert_memory_equal(&a.value, &b.value, sizeof a.value);
+        }
+        ramify_measures_free(one);
+        ramify_measures_free(all[i]);
+    }
+    volatile int cancelled = 1;
+    RamifyRun stopped = {.cancelled = &cancelled};
+    assert_false(ramify_measure_all(scene, all, &stopped, &error));
+    assert_int_equal(error.code, RAMIFY_CANCELLED);
+    for (int i = 0; i < OBJECTS; i++) {
+        assert_null(all[i]);
+    }
+    ramify_scene_free(scene);
+}
+
 static void land_has_heights(void **state)
 {
     (void)state;
@@ -573,6 +603,7 @@ int main(void)
         cmocka_unit_test(growth_gives_an_out_tree),
         cmocka_unit_test(an_out_tree_survives_its_file),
         cmocka_unit_test(measures_are_those_of_the_tree),
+        cmocka_unit_test(all_measures_are_those_of_each),
         cmocka_unit_test(land_has_heights),
         cmocka_unit_test(a_leaf_paints_its_veins),
         cmocka_unit_test(a_world_hands_out_its_parts),
