@@ -19,9 +19,11 @@ typedef struct Extremes {
     float low, high; // shares of the greatest extinction
 } Extremes;
 
-// Depth inside the coarse form, m, softness, and share of the greatest extinction at a place.
+// Depth inside the coarse form, m, softness, and share of the greatest extinction at a place; and
+// what softness decides: how far detail reaches, m, and one over the width of the edge, 1/m.
 typedef struct Corner {
     float inside, softness, share;
+    float reach, per_edge;
 } Corner;
 
 typedef struct Box {
@@ -38,12 +40,13 @@ static Corner corner_at_node(const CloudGrid *g, int x, int y, int z)
     const int wrap = NODES_ACROSS - 1;
     bool inside = y < g->count[1] && (g->repeats || (x < g->count[0] && z < g->count[2]));
     if (!inside) { // lookups find nothing between the last nodes and these
-        return (Corner){(float)FARTHEST * g->voxel / DISTANCE_STEPS, 0.0f, 0.0f};
+        return (Corner){.inside = (float)FARTHEST * g->voxel / DISTANCE_STEPS};
     }
     int64_t at = cloud_grid_node(g, x & wrap, y, z & wrap);
     CloudNode n = g->node[at];
-    return (Corner){(float)n.distance * g->voxel / DISTANCE_STEPS, (float)n.softness / SOFTEST,
-                    g->ice ? (float)g->ice[at] / ICE_STEPS : 1.0f};
+    return (Corner){.inside = (float)n.distance * g->voxel / DISTANCE_STEPS,
+                    .softness = (float)n.softness / SOFTEST,
+                    .share = g->ice ? (float)g->ice[at] / ICE_STEPS : 1.0f};
 }
 
 static bool may_hold_droplets(const CloudGrid *g, int cx, int cy, int cz)
@@ -64,8 +67,9 @@ static bool may_hold_droplets(const CloudGrid *g, int cx, int cy, int cz)
 
 static Corner mix(Corner a, Corner b, float t)
 {
-    return (Corner){lerpf(a.inside, b.inside, t), lerpf(a.softness, b.softness, t),
-                    lerpf(a.share, b.share, t)};
+    return (Corner){.inside = lerpf(a.inside, b.inside, t),
+                    .softness = lerpf(a.softness, b.softness, t),
+                    .share = lerpf(a.share, b.share, t)};
 }
 
 typedef Corner Corners[CORNERS][CORNERS][CORNERS]; // z, x, y
@@ -88,8 +92,11 @@ static void interpolate(const CloudGrid *g, int cx, int cy, int cz, Corners out)
             const Corner *column = node[c + (k >> 1)][a + (k & 1)];
             edge[k] = mix(column[b], column[b + 1], v);
         }
-        out[z][x][y] = mix(mix(edge[0], edge[1], u), mix(edge[2], edge[3], u),
-                           (float)z / PART_STEPS - (float)c);
+        Corner here = mix(mix(edge[0], edge[1], u), mix(edge[2], edge[3], u),
+                          (float)z / PART_STEPS - (float)c);
+        here.reach = cloud_grid_reach(g, here.softness);
+        here.per_edge = 1.0f / edge_at(&g->rough, here.softness);
+        out[z][x][y] = here;
     }
 }
 
@@ -99,22 +106,44 @@ static void interpolate(const CloudGrid *g, int cx, int cy, int cz, Corners out)
 static Extremes share_at(const CloudGrid *g, Corner c, DetailRange large, DetailRange small)
 {
     const Roughness *r = &g->rough;
-    float billows = billows_at(c.softness), scale = 1.0f / edge_at(r, c.softness);
+    float billows = billows_at(c.softness);
     float high = billows * (r->billow[0] * large.high.billow + r->billow[1] * small.high.billow) +
                  c.softness * (r->wisp[0] * large.high.wisp + r->wisp[1] * small.high.wisp);
     float low = billows * (r->billow[0] * large.low.billow + r->billow[1] * small.low.billow) +
                 c.softness * (r->wisp[0] * large.low.wisp + r->wisp[1] * small.low.wisp);
-    return (Extremes){unit_clamp((c.inside + low) * scale - ROUNDING),
-                      unit_clamp((c.inside + high) * scale + ROUNDING)};
+    return (Extremes){unit_clamp((c.inside + low) * c.per_edge - ROUNDING),
+                      unit_clamp((c.inside + high) * c.per_edge + ROUNDING)};
 }
 
-static bool beyond_detail(const CloudGrid *g, const Box *box)
+static bool beyond_detail(const Box *box)
 {
     bool any = false;
     for (int i = 0; i < 8; i++) {
-        any |= box->corner[i].inside > -cloud_grid_reach(g, box->corner[i].softness);
+        any |= box->corner[i].inside > -box->corner[i].reach;
     }
     return !any || box->above <= 0.0f;
+}
+
+// Whether no detail changes the density: too deep inside, and too high over a ragged base.
+static bool below_detail(const CloudGrid *g, const Box *box)
+{
+    bool all = box->below >= RAGGED_UP_TO * g->rough.base;
+    for (int i = 0; i < 8; i++) {
+        Corner c = box->corner[i];
+        all &= (c.inside - c.reach) * c.per_edge >= 1.0f + 2.0f * ROUNDING;
+    }
+    return all;
+}
+
+// Of the large detail.
+static DetailRange large_in(const CloudGrid *g, const Box *box)
+{
+    if (below_detail(g, box)) {
+        return detail_range_whole(g->detail);
+    }
+    float scale = 1.0f / g->rough.period[0], half = 0.5f * box->side * scale;
+    Vec3 middle = vec3_scale(cloud_grid_turned(box->middle), scale);
+    return detail_range(g->detail, middle, vec3_scale(cloud_grid_turned_cube, half));
 }
 
 // Of the factor that altitude decides, or depth.
@@ -138,12 +167,10 @@ static Extremes gain_in(const CloudGrid *g, const Box *box)
 
 static Extremes in_box(const CloudGrid *g, const Box *box, DetailRange small)
 {
-    if (beyond_detail(g, box)) {
+    if (beyond_detail(box)) {
         return (Extremes){0.0f, 0.0f};
     }
-    float scale = 1.0f / g->rough.period[0], half = 0.5f * box->side * scale;
-    Vec3 middle = vec3_scale(cloud_grid_turned(box->middle), scale);
-    DetailRange large = detail_range(g->detail, middle, vec3_scale(cloud_grid_turned_cube, half));
+    DetailRange large = large_in(g, box);
     Extremes share = {1.0f, 0.0f}, softness = {1.0f, 0.0f}, ice = {1.0f, 0.0f};
     for (int i = 0; i < 8; i++) {
         Corner c = box->corner[i];
