@@ -82,7 +82,8 @@ typedef enum BarkKind {
     BARK_SMOOTH,   // a grey skin with faint wrinkles and scars (color2): beech
     BARK_FIBROUS,  // long stringy strips: cypress, juniper
     BARK_FLAKES,   // patches of several ages, from color to color2: plane, eucalyptus
-    BARK_BANDS     // glossy, corky bands (color2) across: cherry
+    BARK_BANDS,    // glossy, corky bands (color2) across: cherry
+    BARK_SCALES    // thin scales in layers, redder (color2) where one came off: spruce
 } BarkKind;
 
 // How pictures are laid on a surface.

@@ -33,12 +33,12 @@ Overgrowth lichen_at(float amount, const SurfacePoint *point)
     CellPoint cell = noise_cells(vec3_scale(p, 1.0f / spacing), 115);
     float seen = pattern_detail(0.5f * spacing, point->footprint);
     float size = lerpf(0.12f, 0.46f, noise_unit(cell.cell, 2));
-    float t = vec3_length(cell.point) / size + 0.35f * wave;
+    float t = vec3_length(cell.point) / size + 0.6f * wave;
     bool grows = noise_unit(cell.cell, 1) < amount * where;
     float share = grows ? seen * (1.0f - smoothstepf(0.85f, 1.0f, t)) : 0.0f;
     float rim = smoothstepf(0.5f, 0.9f, t);
     bool yellow = noise_unit(cell.cell, 3) > 0.88f;
     Vec3 color = yellow ? vec3(0.40f, 0.29f, 0.05f) : vec3(0.30f, 0.33f, 0.26f);
-    color = vec3_scale(color, 0.72f + 0.4f * rim + 0.25f * wave);
+    color = vec3_scale(color, 0.85f + 0.18f * rim + 0.3f * wave);
     return (Overgrowth){0.8f * share, 0.0012f * share, color};
 }

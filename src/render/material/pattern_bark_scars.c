@@ -63,6 +63,33 @@ static void add_scar(const Material *m, const StemPlace *place, BarkSurface *bar
     bark->color = vec3_lerp(bark->color, wood, guard * 0.85f * dent);
 }
 
+// A scar on smooth bark: an eye under two dark lines that run down from its top to both sides, the
+// ridge of bark that the limb and the stem pressed up between them.
+static void add_eye(const Material *m, const StemPlace *place, BarkSurface *bark)
+{
+    const float around = 0.55f, along = 0.65f; // m
+    float thick = smoothstepf(0.06f, 0.14f, place->radius);
+    CellPoint cell = noise_cells(stem_lookup(place, around, along), 82);
+    if (thick <= 0.0f || noise_unit(cell.cell, 1) > 0.8f * m->scars) {
+        return;
+    }
+    float size = lerpf(0.03f, 0.06f, noise_unit(cell.cell, 2)); // m: half its width
+    Vec3 torn;
+    noise_solid(vec3_scale(place->p, 0.5f / size), 83, &torn);
+    float u = (-around * vec3_dot(cell.point, place->along_u)) / size + 0.06f * torn.x;
+    float v = -along * cell.point.z / size + 0.06f * torn.z;
+    float guard = thick * smoothstepf(0.0f, 0.06f, cell.border);
+    float t = sqrtf(u * u + 2.2f * v * v), side = fabsf(u);
+    float arm = bell(v + 0.55f * side + 0.06f * side * side, 0.85f, 0.17f + 0.04f * side) *
+                smoothstepf(3.4f, 1.2f, side) * guard;
+    float dent = guard * (1.0f - smoothstepf(0.4f, 0.95f, t)), rim = guard * bell(t, 1.15f, 0.25f);
+    bark->form += 0.014f * (0.75f * rim - dent) + 0.003f * arm;
+    float rings = 0.5f + 0.5f * cosf(16.0f * t + 3.0f * torn.y);
+    bark->color = vec3_scale(bark->color, 1.0f - 0.15f * rim * rings - 0.45f * arm);
+    Vec3 wood = vec3_scale(m->color2, 1.0f + 0.5f * rings * t);
+    bark->color = vec3_lerp(bark->color, wood, 0.7f * dent);
+}
+
 // Ribs run up from the roots; furrows lie between them, where the wood has died back.
 static void add_ribs(const Material *m, const StemPlace *place, BarkSurface *bark)
 {
@@ -111,7 +138,9 @@ void bark_scars(const Material *m, const SurfacePoint *point, const StemPlace *p
     if (m->ribs > 0.0f) {
         add_ribs(m, place, bark);
     }
-    if (m->scars > 0.0f) {
+    if (m->scars > 0.0f && m->bark == BARK_SMOOTH) {
+        add_eye(m, place, bark);
+    } else if (m->scars > 0.0f) {
         add_scar(m, place, bark);
     }
     if (m->hollows > 0.0f) {

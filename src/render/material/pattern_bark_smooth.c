@@ -1,126 +1,95 @@
-// Barks without furrows: the smooth skin of beeches, the patches of planes and eucalypts, the
-// strips of cypresses.
+// The smooth skin of beeches: silver-grey, with fine grain and folds across the stem, crusts of
+// lichen that differ little from it, and a film of algae where it is damp. Features of all sizes
+// from half a metre to millimetres, so that some are as fine as the pixel from any distance.
 #include "render/material/pattern_noise.h"
 #include "render/material/pattern_stem.h"
 
 #include <math.h>
 #include <stddef.h>
 
-// Crusts of lichen: patches with ragged borders, pale ones with dark fruit bodies and sooty ones,
-// up to a few hands wide. seen: share of what is as fine as these dots.
-static Vec3 add_crusts(Vec3 color, const StemPlace *place, float scale, float seen)
+// A lookup whose borders are ragged.
+static Vec3 ragged(const StemPlace *place, float around, float along, uint32_t seed)
 {
-    float pale = noise_fractal(stem_lookup(place, 0.17f * scale, 0.13f * scale), 4, 52);
-    float sooty = noise_fractal(stem_lookup(place, 0.26f * scale, 0.16f * scale), 4, 56);
-    float crust = smoothstepf(0.13f, 0.18f, pale), rim = smoothstepf(0.24f, 0.15f, pale);
-    Vec3 grey = vec3_scale(vec3(1.26f, 1.33f, 1.20f), 1.0f + 0.07f * rim);
-    float dot = noise_solid(stem_lookup(place, 0.007f * scale, 0.007f * scale), 57, NULL);
-    grey = vec3_scale(grey, 1.0f - 0.35f * seen * smoothstepf(0.25f, 0.5f, dot));
-    color = vec3_lerp(color, vec3_mul(color, grey), 0.8f * crust);
-    Vec3 dark = vec3_mul(color, vec3(0.62f, 0.66f, 0.60f));
-    return vec3_lerp(color, dark, 0.75f * smoothstepf(0.17f, 0.27f, sooty));
+    Vec3 torn, q = stem_lookup(place, around, along);
+    noise_solid(vec3_scale(q, 2.6f), seed, &torn);
+    return vec3_madd(q, 0.09f, torn);
 }
 
-// Algae: a breath of green, more toward the foot, and dark streaks where rain runs down.
-static Vec3 add_runs(Vec3 color, const StemPlace *place, float scale)
+// Crusts of lichen, up to a hand wide: pale ones and sooty ones, many together where it is light.
+static Vec3 add_crusts(Vec3 color, const StemPlace *place, float scale)
 {
-    float run = noise_fractal(stem_lookup(place, 0.10f * scale, 1.9f * scale), 3, 53);
-    float foot = expf(-fmaxf(place->height, 0.0f) / (1.2f * scale));
-    float green = smoothstepf(-0.15f, 0.45f, run + 0.3f * foot);
-    float wet = smoothstepf(0.22f, 0.42f, run);
-    color = vec3_mul(color, vec3(1.0f - 0.27f * green, 1.0f - 0.13f * green, 1.0f - 0.40f * green));
-    return vec3_scale(color, 1.0f - 0.28f * wet);
+    float where = noise_solid(stem_lookup(place, 0.8f * scale, 0.6f * scale), 60, NULL);
+    float pale = noise_fractal(ragged(place, 0.13f * scale, 0.10f * scale, 64), 5, 52);
+    float crust = smoothstepf(0.10f, 0.17f, pale - 0.20f + 0.22f * where);
+    color = vec3_lerp(color, vec3_mul(color, vec3(1.17f, 1.20f, 1.13f)), crust);
+    float sooty = noise_fractal(ragged(place, 0.22f * scale, 0.13f * scale, 65), 6, 56);
+    float soot = smoothstepf(0.0f, 0.5f, sooty);
+    return vec3_lerp(color, vec3_mul(color, vec3(0.70f, 0.72f, 0.70f)), soot);
+}
+
+// Small round crusts, some centimetres wide, and dark points. seen: share of what is as fine.
+static Vec3 add_spots(Vec3 color, const StemPlace *place, float scale, float seen)
+{
+    CellPoint cell = noise_cells(ragged(place, 0.034f * scale, 0.030f * scale, 66), 67);
+    float size = lerpf(0.12f, 0.42f, noise_unit(cell.cell, 2) * noise_unit(cell.cell, 3));
+    float t = vec3_length(cell.point) / size;
+    float share = noise_unit(cell.cell, 1) < 0.5f ? 1.0f - smoothstepf(0.75f, 1.05f, t) : 0.0f;
+    float tone = 1.0f + seen * share * (0.26f * noise_unit(cell.cell, 4) - 0.04f);
+    float dot = noise_solid(stem_lookup(place, 0.010f * scale, 0.007f * scale), 57, NULL);
+    return vec3_scale(color, tone * (1.0f - 0.22f * seen * smoothstepf(0.30f, 0.55f, dot)));
+}
+
+// A film of algae: at the foot and on the side away from the sun (-z), thicker where rain runs.
+static Vec3 add_algae(Vec3 color, const StemPlace *place, float scale)
+{
+    float north = -vec3_cross(place->u, place->v).z;
+    float run = noise_fractal(stem_lookup(place, 0.35f * scale, 1.6f * scale), 5, 53);
+    float foot = expf(-fmaxf(place->height, 0.0f) / (0.9f * scale));
+    float film = 0.55f * smoothstepf(-0.1f, 0.9f, 0.55f * foot + 0.4f * north + 0.8f * run);
+    return vec3_mul(color, vec3(1.0f - 0.36f * film, 1.0f - 0.20f * film, 1.0f - 0.55f * film));
+}
+
+// Adds a noise stretched across the stem to the relief and, by `tone`, to the colour.
+static void add_grain(BarkLook *look, const StemPlace *place, float around, float along,
+                      float height, float tone, uint32_t seed)
+{
+    Vec3 g;
+    float n = noise_solid(stem_lookup(place, around, along), seed, &g);
+    stem_add_relief(look, place, height * n, height, around, along, g);
+    look->color = vec3_scale(look->color, 1.0f + tone * n);
+}
+
+// Folds of the skin across the stem, where it was pressed: in groups.
+static void add_folds(BarkLook *look, const StemPlace *place, float scale, float seen)
+{
+    Vec3 bend, g, q = stem_lookup(place, 0.16f * scale, 0.022f * scale);
+    float where = noise_fractal(stem_lookup(place, 0.5f * scale, 0.4f * scale), 2, 59);
+    float share = seen * smoothstepf(0.0f, 0.35f, where);
+    if (share <= 0.0f) {
+        return;
+    }
+    noise_solid(vec3_scale(q, 0.4f), 62, &bend);
+    float n = noise_solid(vec3_madd(q, 0.3f, bend), 61, &g);
+    float crease = clampf(1.0f - fabsf(n) / 0.22f, 0.0f, 1.0f);
+    float change = 2.0f * crease / 0.22f * (n < 0.0f ? -1.0f : 1.0f);
+    stem_add_relief(look, place, -0.30f * share * crease * crease, 0.30f * share * change,
+                    0.16f * scale, 0.022f * scale, g);
+    look->color = vec3_scale(look->color, 1.0f - 0.22f * share * crease * crease);
 }
 
 BarkLook bark_smooth(const Material *m, const StemPlace *place, float scale, float footprint)
 {
     BarkLook look = {0};
-    Vec3 g, h;
     float seen = pattern_detail(0.012f * scale, footprint);
-    float tone = noise_fractal(stem_lookup(place, 0.5f * scale, 0.35f * scale), 4, 51);
-    look.color = vec3_scale(m->color, 1.0f + 0.34f * tone);
-    look.color = add_crusts(look.color, place, scale, seen);
-    look.color = add_runs(look.color, place, scale);
-    float skin = noise_solid(stem_lookup(place, 0.028f * scale, 0.0035f * scale), 58, NULL);
-    look.color = vec3_scale(look.color, 1.0f + 0.09f * seen * skin);
-    float wrinkle = noise_solid(stem_lookup(place, 0.06f * scale, 0.007f * scale), 54, &g);
-    stem_add_relief(&look, place, 0.10f * seen * wrinkle, 0.10f * seen, 0.06f * scale,
-                    0.007f * scale, g);
-    look.color = vec3_scale(look.color, 1.0f + 0.12f * seen * wrinkle);
-    // Scars: dark, wider than high, few.
-    const float around = 0.11f * scale, along = 0.035f * scale;
-    float n = noise_solid(stem_lookup(place, around, along), 55, &h);
-    float thick = smoothstepf(0.03f, 0.08f, place->radius);
-    float scar = smoothstepf(0.52f, 0.60f, n) * thick;
-    float dent = stem_smooth_ramp(0.08f, n - 0.52f) * thick;
-    stem_add_relief(&look, place, -0.5f * dent, -0.5f * scar, around, along, h);
-    look.color = vec3_lerp(look.color, m->color2, 0.75f * scar);
-    return look;
-}
-
-// The age of the patch at the place, and the step to the next one: old patches are thick. *edge:
-// how near a thicker one is, 0..1.
-static float patch_age(BarkLook *look, const StemPlace *place, float around, float along,
-                       float height, Vec3 wind, uint32_t seed, float *edge)
-{
-    Vec3 q = vec3_madd(stem_lookup(place, around, along), 0.38f, wind);
-    CellPoint cell = noise_cells(q, seed);
-    const float width = 0.022f;
-    float t = clampf(cell.border / width, 0.0f, 1.0f), age = noise_unit(cell.cell, 8);
-    float step = 0.5f * (age - noise_unit(cell.next, 8)); // from the middle of the step
-    *edge = step < 0.0f ? clampf(1.0f - cell.border / 0.05f, 0.0f, 1.0f) : 0.0f;
-    float rise = height * (age - step * (1.0f - t) * (1.0f - t) - 0.5f);
-    float slope = height * step * 2.0f * (1.0f - t) / width;
-    stem_add_relief(look, place, rise, slope, around, along, cell.normal);
-    return age;
-}
-
-// Fresh patches are pale; they green and then brown with age. Old trunks keep old bark at the foot.
-static Vec3 patch_color(const Material *m, float age)
-{
-    Vec3 olive = vec3_mul(vec3_lerp(m->color, m->color2, 0.55f), vec3(0.95f, 1.02f, 0.84f));
-    return age < 0.5f ? vec3_lerp(m->color, olive, smoothstepf(0.15f, 0.45f, age))
-                      : vec3_lerp(olive, m->color2, smoothstepf(0.5f, 0.75f, age));
-}
-
-BarkLook bark_flakes(const Material *m, const StemPlace *place, float scale, float footprint)
-{
-    BarkLook look = {0};
-    Vec3 wind;
-    float edge, edge2, seen = pattern_detail(0.03f * scale, footprint);
-    noise_solid(stem_lookup(place, 0.10f * scale, 0.13f * scale), 61, &wind);
-    float size = scale * (0.5f + 0.5f * smoothstepf(0.02f, 0.12f, place->radius));
-    float large = patch_age(&look, place, 0.16f * size, 0.24f * size, 1.0f, wind, 62, &edge);
-    float small = patch_age(&look, place, 0.055f * size, 0.085f * size, 0.5f, wind, 63, &edge2);
-    float foot = smoothstepf(0.15f, 0.4f, place->radius) *
-                 expf(-fmaxf(place->height, 0.0f) / (6.0f * place->radius + 0.05f));
-    float age = clampf(0.62f * large + 0.38f * small + 0.5f * foot, 0.0f, 1.0f);
-    float grain = noise_solid(stem_lookup(place, 0.02f * scale, 0.02f * scale), 64, NULL);
-    look.color = vec3_scale(patch_color(m, age), 1.0f + 0.07f * seen * grain);
-    look.color = vec3_scale(look.color, 1.0f - 0.30f * seen * fmaxf(edge, 0.6f * edge2));
-    float twig = smoothstepf(0.02f, 0.008f, place->radius);
-    look.color = vec3_lerp(look.color, vec3_lerp(m->color, m->color2, 0.8f), twig);
-    return look;
-}
-
-BarkLook bark_fibrous(const Material *m, const StemPlace *place, float scale, float footprint)
-{
-    BarkLook look = {0};
-    Vec3 bend, g, h;
-    noise_solid(stem_lookup(place, 0.10f * scale, 0.5f * scale), 71, &bend);
-    float seen = pattern_detail(0.012f * scale, footprint);
-    const float around = 0.030f * scale, along = 0.42f * scale;
-    Vec3 q = vec3_madd(stem_lookup(place, around, along), 0.35f, bend);
-    float n = noise_solid(q, 72, &g), ridge = 1.0f - 1.4f * fabsf(n);
-    stem_add_relief(&look, place, -0.9f * fabsf(n), n < 0.0f ? 0.9f : -0.9f, around, along, g);
-    float fibre = noise_solid(stem_lookup(place, 0.0065f * scale, 0.16f * scale), 73, &h);
-    stem_add_relief(&look, place, 0.16f * seen * fibre, 0.16f * seen, 0.0065f * scale,
-                    0.16f * scale, h);
-    // Strips whose ends come off: brighter and redder where they are fresh.
-    float strip = noise_solid(stem_lookup(place, 0.05f * scale, 0.22f * scale), 74, NULL);
-    Vec3 red = vec3_lerp(m->color, m->color2, 0.5f);
-    Vec3 color = vec3_lerp(m->color, red, smoothstepf(0.1f, 0.5f, strip));
-    color = vec3_lerp(vec3_scale(m->color2, 0.35f), color, smoothstepf(0.25f, 0.9f, ridge));
-    look.color = vec3_scale(color, 1.0f + 0.22f * seen * fibre);
+    float broad = pattern_detail(0.05f * scale, footprint);
+    float tone = noise_fractal(stem_lookup(place, 0.55f * scale, 0.40f * scale), 6, 51);
+    look.color = vec3_scale(m->color, 1.0f + 0.26f * tone);
+    look.color = add_crusts(look.color, place, scale);
+    look.color = add_spots(look.color, place, scale, broad);
+    look.color = add_algae(look.color, place, scale);
+    add_grain(&look, place, 0.16f * scale, 0.028f * scale, 0.30f * broad, 0.09f * broad, 63);
+    add_grain(&look, place, 0.055f * scale, 0.008f * scale, 0.12f * seen, 0.13f * seen, 54);
+    add_grain(&look, place, 0.022f * scale, 0.0032f * scale, 0.03f * seen, 0.10f * seen, 58);
+    add_folds(&look, place, scale, broad);
     return look;
 }
