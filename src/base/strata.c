@@ -59,6 +59,17 @@ static void lay_faults(Strata *strata, const StrataParams *params, float size)
     strata->fault_count = params->fault_count;
 }
 
+static Vec3 mean_color(const StrataParams *params)
+{
+    Vec3 sum = {0};
+    float thickness = 0.0f;
+    for (int i = 0; i < params->bed_count; i++) {
+        sum = vec3_madd(sum, params->beds[i].thickness, params->beds[i].color);
+        thickness += params->beds[i].thickness;
+    }
+    return vec3_scale(sum, 1.0f / thickness);
+}
+
 Strata *strata_new(const StrataParams *params, Vec3 origin, float size, Error *e)
 {
     if (params->bed_count < 1 || params->bed_count > STRATA_MOST_BEDS ||
@@ -72,6 +83,7 @@ Strata *strata_new(const StrataParams *params, Vec3 origin, float size, Error *e
         return NULL;
     }
     strata->origin = origin;
+    strata->mean_color = mean_color(params);
     stack_beds(strata, params);
     lay_faults(strata, params, size);
     Vec2 down = toward(params->dip_azimuth);

@@ -57,6 +57,7 @@ typedef struct Strata {
     double run[STRATA_MOST_BEDS + 1];  // see strata_run, at the upper face of each bed
     float steepness[STRATA_MOST_BEDS]; // tangent of the steepest slope that stands
     StrataLine fault[STRATA_MOST_FAULTS];
+    Vec3 mean_color; // by thickness
     Vec3 origin;
     float fall_x, fall_z;              // of the dip, m per m
     float fold_x, fold_z, fold_height; // radians per m; m

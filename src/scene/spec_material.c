@@ -48,6 +48,7 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"river", PATTERN_RIVER},
                                     {"delta", PATTERN_DELTA},
                                     {"silt", PATTERN_SILT},
+                                    {"heath", PATTERN_HEATH},
                                     {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
@@ -155,7 +156,8 @@ static const Key MATERIAL_KEYS[] = {
          "a wall of stones in courses; leaf: "
          "veins and blotches; noise: plain noise; corallite: "
          "cups of a coral; youth: color2 where a branch still grows; sand: ripples of a sea "
-         "floor; mountain: rock in blocks between beds and joints, scree, grass and snow; "
+         "floor; mountain: rock in blocks between beds and joints (with a terrain's beds in their "
+         "colours relative to their mean), scree, grass and snow; "
          "badlands: coloured strata; water: "
          "ripples; altitude: a map's scale of colours over a terrain; strata: the colours of a "
          "terrain's beds, with rubble, soil (color) and shrubs (color2); hills: dry grass, fresh "
@@ -169,7 +171,9 @@ static const Key MATERIAL_KEYS[] = {
          "water, through which the bed (color2) shows where it is shallow; delta: mud (color), "
          "reeds and marsh (color2), "
          "willows on levees and meadows of a river's delta; silt: its water, from the clear sea "
-         "(color) to the river's mud (color2), with the bed in shoals; none: one colour."},
+         "(color) to the river's mud (color2), with the bed in shoals; heath: open slopes of "
+         "mountains: dry and lush grass (color), bushes, stones, and worn tracks of soil (color2) "
+         "down steep ground, in patches of pattern_scale; none: one colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
             "and ash, on thick branches; with a pattern_scale below 0.02, as of a miniature tree, "

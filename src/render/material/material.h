@@ -65,7 +65,8 @@ typedef enum PatternKind {
     PATTERN_FLOODPLAIN, // point bars, scrolls, meadows, reeds and fields of a meandering river
     PATTERN_RIVER,      // its water: the bed in shoals, murky depth, ripples
     PATTERN_DELTA,      // mud flats, reeds, marsh, willows on levees, fields of a river's delta
-    PATTERN_SILT        // its water: mud and clear sea (color), the bed in shoals
+    PATTERN_SILT,       // its water: mud and clear sea (color), the bed in shoals
+    PATTERN_HEATH       // dry turf of open slopes, bushes, stones, worn tracks of soil (color2)
 } PatternKind;
 
 // Is relief displaced near the camera?

@@ -170,7 +170,7 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_NOISE] = noise_pattern,       [PATTERN_KARST] = pattern_karst,
     [PATTERN_MUD] = pattern_mud,           [PATTERN_FLOODPLAIN] = pattern_floodplain,
     [PATTERN_RIVER] = pattern_river,       [PATTERN_DELTA] = pattern_delta,
-    [PATTERN_SILT] = pattern_silt,
+    [PATTERN_SILT] = pattern_silt,         [PATTERN_HEATH] = pattern_heath,
 };
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)

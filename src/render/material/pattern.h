@@ -60,6 +60,7 @@ void pattern_floodplain(const Material *material, const SurfacePoint *point, Pat
 void pattern_river(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_karst(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_delta(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_heath(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_silt(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_karst_height(const Material *material, const SurfacePoint *point); // m
 void pattern_glacial(const Material *material, const SurfacePoint *point, PatternShade *shade);

@@ -3,41 +3,22 @@
 // (SurfacePoint.site.y), and soil with shrubs where it is level.
 #include "base/strata.h"
 #include "render/material/pattern.h"
+#include "render/material/pattern_beds.h"
 #include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
 #include "render/material/pattern_shore.h"
+#include "render/material/pattern_slopes.h"
 
 #include <stddef.h>
 
 enum {
-    SEED_WOBBLE = 301,
+    SEED_FRAY = 305,
     SEED_ROUGH = 310,
     SEED_STREAK = 320,
     SEED_STONES = 330,
     SEED_SOIL = 340,
     SEED_SHRUB = 350
 };
-
-// Where a point is in the stack: contacts are not ruled lines.
-static float level_at(const Strata *strata, Vec3 p)
-{
-    float wobble = 1.1f * noise_solid(vec3_scale(p, 1.0f / 60.0f), SEED_WOBBLE, NULL) +
-                   0.3f * noise_solid(vec3_scale(p, 1.0f / 9.0f), SEED_WOBBLE + 1, NULL);
-    return p.y - strata_base(strata, p.x, p.z) + wobble;
-}
-
-static Vec3 bed_color(const Strata *strata, float level)
-{
-    return strata->bed[strata_bed(strata, level)].color;
-}
-
-// The mean colour over the height that a pixel covers.
-static Vec3 seen_color(const Strata *strata, float level, float footprint)
-{
-    float third = 0.33f * footprint;
-    Vec3 sum = vec3_add(bed_color(strata, level - third), bed_color(strata, level + third));
-    return vec3_scale(vec3_add(sum, bed_color(strata, level)), 1.0f / 3.0f);
-}
 
 // The laminae of a bed at three scales, about 0..1; 0.5 = none.
 static float lamina_tone(const Strata *strata, float level, float footprint)
@@ -66,7 +47,7 @@ static Ground rock(const Material *m, const SurfacePoint *point, float level, fl
     PatternOctaves streaks = pattern_octaves(point, 1.4f * scale, 6, 0.62f, 0.09f, SEED_STREAK + 8);
     float bent = level + 0.02f * scale * rough.value;
     float tone = lamina_tone(point->strata, bent, footprint);
-    Ground g = {.color = seen_color(point->strata, level, footprint)};
+    Ground g = {.color = beds_mean_color(point->strata, level, footprint)};
     g.color = vec3_scale(g.color, 0.78f + 0.44f * tone);
     g.color = vec3_scale(g.color, clampf(1.0f + 0.18f * rough.value, 0.6f, 1.4f));
     // Desert varnish runs down the faces.
@@ -86,10 +67,10 @@ static Ground rubble(const SurfacePoint *point, float level)
     PatternOctaves chutes = pattern_octaves(point, 45.0f, 5, 0.6f, 0.3f, SEED_STONES + 8);
     Vec3 sum = {0};
     for (int i = 0; i < 4; i++) {
-        sum = vec3_add(sum, bed_color(point->strata, level + 6.0f + 32.0f * (float)i));
+        sum = vec3_add(sum, beds_color(point->strata, level + 6.0f + 32.0f * (float)i));
     }
     Ground g = {.color = vec3_scale(sum, 0.25f)};
-    g.color = vec3_lerp(g.color, bed_color(point->strata, level), 0.3f);
+    g.color = vec3_lerp(g.color, beds_color(point->strata, level), 0.3f);
     g.color =
         vec3_scale(g.color, clampf(0.95f + 0.2f * stones.value + 0.16f * chutes.value, 0.5f, 1.5f));
     g.slope = vec3_madd(vec3_scale(stones.slope, 0.9f), 2.2f, chutes.slope);
@@ -99,28 +80,18 @@ static Ground rubble(const SurfacePoint *point, float level)
 static Ground soil(const Material *m, const SurfacePoint *point, float level)
 {
     PatternOctaves sand = pattern_octaves(point, 40.0f, 7, 0.55f, 1.0f, SEED_SOIL);
-    Ground g = {.color = vec3_lerp(m->color, bed_color(point->strata, level - 2.0f), 0.5f)};
+    Ground g = {.color = vec3_lerp(m->color, beds_color(point->strata, level - 2.0f), 0.5f)};
     g.color = vec3_scale(g.color, clampf(1.0f + 0.16f * sand.value, 0.6f, 1.4f));
     g.slope = vec3_scale(sand.slope, 1.2f);
     return g;
 }
 
-// The share of the ground under shrubs: discs in plan, or their mean where they are too small.
+// The share of the ground under shrubs.
 static float shrubs(const SurfacePoint *point, float density, float size)
 {
     PatternOctaves groves = pattern_octaves(point, 220.0f, 5, 0.6f, 1.0f, SEED_SHRUB);
     float grows = clampf(density * (0.8f + 1.3f * groves.value), 0.0f, 1.0f);
-    Vec3 p = vec3_scale(point->object_position, 1.0f / size);
-    float mean = 0.55f * grows, seen = pattern_detail(1.2f * size, point->footprint);
-    if (seen <= 0.0f) {
-        return mean;
-    }
-    CellPoint cell = noise_cells(vec3(p.x, 0.5f, p.z), SEED_SHRUB + 9);
-    float away = sqrtf(cell.point.x * cell.point.x + cell.point.z * cell.point.z);
-    float radius =
-        noise_unit(cell.cell, 5) < grows ? 0.22f + 0.25f * noise_unit(cell.cell, 6) : 0.0f;
-    float share = radius > 0.0f ? 1.0f - smoothstepf(0.8f * radius, radius, away) : 0.0f;
-    return lerpf(mean, share, seen);
+    return pattern_mounds(point, grows, size, SEED_SHRUB + 9).share;
 }
 
 void pattern_strata(const Material *m, const SurfacePoint *point, PatternShade *shade)
@@ -128,9 +99,8 @@ void pattern_strata(const Material *m, const SurfacePoint *point, PatternShade *
     if (!point->strata) {
         return;
     }
-    float upright = fabsf(surface_smooth_normal(point).y),
-          level = level_at(point->strata, point->object_position);
-    PatternOctaves fray = pattern_octaves(point, 24.0f, 5, 0.6f, 1.0f, SEED_WOBBLE + 4);
+    float upright = fabsf(surface_smooth_normal(point).y), level = beds_level(point);
+    PatternOctaves fray = pattern_octaves(point, 24.0f, 5, 0.6f, 1.0f, SEED_FRAY);
     float steep = 1.0f - smoothstepf(0.45f, 0.72f, upright + 0.06f * fray.value);
     Ground g = rock(m, point, level, steep), other = rubble(point, level);
     float loose = smoothstepf(0.18f, 0.5f, point->site.y + 0.12f * fray.value) *
@@ -156,7 +126,7 @@ float pattern_strata_height(const Material *m, const SurfacePoint *point)
     }
     float upright = fabsf(point->smooth_normal.y);
     float steep = 1.0f - smoothstepf(0.6f, 0.95f, upright);
-    float level = level_at(point->strata, point->object_position);
+    float level = beds_level(point);
     PatternOctaves rough = pattern_octaves(point, scale_of(m), 8, 0.5f, 1.2f, SEED_ROUGH);
     PatternOctaves joints =
         pattern_octaves(point, 0.55f * scale_of(m), 6, 0.6f, 0.13f, SEED_STREAK);

@@ -3,10 +3,12 @@
 // colours and relief, down to the footprint of the pixel.
 #include "render/material/foam.h"
 #include "render/material/pattern.h"
+#include "render/material/pattern_beds.h"
 #include "render/material/pattern_crags.h"
 #include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
 #include "render/material/pattern_shore.h"
+#include "render/material/pattern_slopes.h"
 
 #include <stddef.h>
 
@@ -50,7 +52,8 @@ typedef struct Face {
     Crags crags;
 } Face;
 
-// size: m, of the largest blocks; dark: how dark crevices are.
+// size: m, of the largest blocks; dark: how dark crevices are. Beds of the land show their colours
+// relative to their mean.
 static Face rock(const Material *m, const SurfacePoint *point, Vec3 color, float size, float thick,
                  float dark)
 {
@@ -60,11 +63,16 @@ static Face rock(const Material *m, const SurfacePoint *point, Vec3 color, float
     PatternOctaves grain = pattern_octaves(point, 0.3f * size, 8, 0.55f, 1.2f, 61);
     // Beds of different rock, visible in some places and lost in broken rock in others.
     float bed = face.level + 0.02f * size * grain.value;
-    float laminae = 0.6f * pattern_lamina(bed, 1.3f * size, point->footprint, 0.9f, 7) +
-                    0.4f * pattern_lamina(bed, 0.21f * size, point->footprint, 0.8f, 9) - 0.5f;
-    float tone = 0.5f + 0.9f * laminae + 0.22f * crags->tone + 0.12f * grain.value;
+    float laminae = 0.45f * pattern_lamina(bed, 1.3f * size, point->footprint, 0.9f, 7) +
+                    0.3f * pattern_lamina(bed, 0.21f * size, point->footprint, 0.8f, 9) +
+                    0.25f * pattern_lamina(bed, 0.05f * size, point->footprint, 0.8f, 15) - 0.5f;
+    float tone = 0.42f + 1.1f * laminae + 0.22f * crags->tone + 0.16f * grain.value;
     f.ground.color = vec3_lerp(color, m->color2, clampf(tone, 0.0f, 1.0f));
-    float light = (1.0f + 0.16f * crags->tone + 0.12f * clampf(grain.value, -1.2f, 1.2f)) *
+    if (point->strata) {
+        f.ground.color =
+            beds_tinted(point, beds_level(point) + 0.02f * size * grain.value, f.ground.color);
+    }
+    float light = (1.0f + 0.16f * crags->tone + 0.16f * clampf(grain.value, -1.2f, 1.2f)) *
                   (1.0f - dark * crags->crevice);
     f.ground.color = vec3_scale(f.ground.color, clampf(light, 0.2f, 1.6f));
     f.ground.slope = vec3_madd(vec3_scale(crags->slope, 0.9f), 0.012f * size, grain.slope);
@@ -88,22 +96,26 @@ static void stain(const SurfacePoint *point, float size, float upright, Vec3 *co
 
 static Ground scree(const Material *m, const SurfacePoint *point, Vec3 color, float scale)
 {
-    PatternOctaves stones = pattern_octaves(point, 0.10f * scale, 5, 0.62f, 1.0f, 81);
-    Ground g = {.color = vec3_scale(vec3_lerp(color, m->color2, 0.35f), 1.12f)};
-    g.color = vec3_scale(g.color, 1.0f + 0.25f * clampf(stones.value, -1.2f, 1.2f));
-    g.slope = vec3_scale(stones.slope, 0.022f * scale);
-    return g;
+    Vec3 fresh = vec3_scale(color, 1.2f);
+    return slopes_talus(point, fresh, vec3_scale(vec3_lerp(color, m->color2, 0.7f), 1.05f), scale);
 }
 
 static Ground grass(const SurfacePoint *point, float scale, float wetness, float altitude)
 {
-    PatternOctaves tufts = pattern_octaves(point, 0.16f * scale, 6, 0.6f, 0.7f, 91);
-    float dry = clampf(0.5f + 0.6f * tufts.value + 0.6f * altitude - 0.5f * wetness, 0.0f, 1.0f);
-    Vec3 lush = {0.038f, 0.062f, 0.018f}, straw = {0.098f, 0.092f, 0.038f};
-    Ground g = {.color = vec3_lerp(lush, straw, dry)};
-    g.color = vec3_scale(g.color, 1.0f + 0.3f * clampf(tufts.value, -1.3f, 1.3f));
-    g.slope = vec3_scale(tufts.slope, 0.02f * scale);
-    return g;
+    const Turf turf = {.lush = {0.038f, 0.062f, 0.018f},
+                       .straw = {0.098f, 0.092f, 0.038f},
+                       .bush = {0.020f, 0.032f, 0.014f},
+                       .soil = {0.115f, 0.095f, 0.070f},
+                       .scale = 0.7f * scale,
+                       .dry = clampf(0.45f + 0.6f * altitude - 0.5f * wetness, 0.0f, 1.0f)};
+    return slopes_turf(point, &turf);
+}
+
+// The share that what grows on the soil of ledges covers. rise: altitude, as grass feels it.
+static float ledge_share(const Material *m, const Crags *crags, float rise, float fray)
+{
+    float grows = smoothstepf(m->grass_line + 0.08f, m->grass_line - 0.06f, rise);
+    return 0.75f * grows * smoothstepf(0.3f, 0.7f, crags->ledge + 0.4f * fray);
 }
 
 static Ground snow(const SurfacePoint *point, float scale)
@@ -160,7 +172,7 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
         float green = smoothstepf(m->grass_line + 0.06f, m->grass_line - 0.08f, rise) *
                       smoothstepf(0.70f, 0.80f, upright + 0.10f * ragged + 0.05f * wetness);
         other = grass(point, scale, wetness, altitude / m->grass_line);
-        g = ground_blend(g, &other, green);
+        g = ground_blend(g, &other, fmaxf(green, ledge_share(m, &face.crags, rise, fray.value)));
     }
     // Gravel along the water.
     float bank = smoothstepf(0.86f, 0.97f, wetness + 0.08f * ragged);
@@ -172,6 +184,7 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
         float high = smoothstepf(m->snow_line - 0.05f, m->snow_line + 0.09f, cold);
         float least = lerpf(0.70f, 0.42f, smoothstepf(m->snow_line, m->snow_line + 0.4f, cold));
         float held = smoothstepf(least, least + 0.07f, upright + 0.10f * fray.value);
+        held = fmaxf(held, 0.8f * smoothstepf(0.35f, 0.7f, face.crags.ledge));
         other = snow(point, scale);
         g = ground_blend(g, &other, high * held);
     }
@@ -228,7 +241,7 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
         float moves = smoothstepf(0.935f, 0.875f, even + 0.05f * ragged + 0.04f * chutes.value);
         green *= 1.0f - 0.92f * moves * covered;
         other = grass(point, scale, 0.4f * loose, felt / m->grass_line);
-        g = ground_blend(g, &other, green);
+        g = ground_blend(g, &other, fmaxf(green, ledge_share(m, &face.crags, rise, fray.value)));
     }
     if (m->snow_line > 0.0f) {
         // Far below the line only couloirs and hollows that hold it through the summer (site.x is
@@ -237,6 +250,7 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
         float least = lerpf(0.80f, 0.44f, smoothstepf(-0.05f, 0.17f, cold));
         float kept = upright - 0.07f * chutes.value + 0.03f * fray.value;
         float held = smoothstepf(least - 0.02f, least + 0.05f, kept);
+        held = fmaxf(held, 0.8f * smoothstepf(0.35f, 0.7f, face.crags.ledge));
         other = snow(point, scale);
         g = ground_blend(g, &other, smoothstepf(-0.012f, 0.016f, cold) * held);
     }
