@@ -16,6 +16,8 @@ enum {
     BLOCKS = SIDE / BLOCK
 };
 
+static const float LIGHTEST = 0.7f; // weight of a point of cell noise
+
 typedef struct ByteRange {
     uint8_t low[2], high[2]; // billow, wisp
 } ByteRange;
@@ -104,7 +106,7 @@ static void fill_tables(Tables *t, uint64_t key)
             uint64_t own = random_key(random_key(key, (uint64_t)octave), (uint64_t)i);
             t->seed[octave][i] =
                 (Seed){vec3(random_unit(own), random_unit(own + 1), random_unit(own + 2)),
-                       random_range(own + 3, 0.7f, 1.5f)};
+                       random_range(own + 3, LIGHTEST, 1.5f)};
             t->slope[octave][i] = random_direction(random_key(own, 4));
         }
     }
@@ -134,17 +136,46 @@ static Vec3 eddy_at(const Tables *t, int x, int y, int z)
     return sum;
 }
 
-// Least weighted square of the distance to a point of the cells around, in cells.
+// The cells before, at and after a place along an axis, the nearest first.
+typedef struct Neighbours {
+    int cell[3];   // on the period
+    float side[3]; // its lower side, in cells
+    float away[3]; // square of the distance to it
+} Neighbours;
+
+static Neighbours neighbours_along(float p, int cells)
+{
+    static const int order[3] = {0, -1, 1};
+    int own = (int)floorf(p);
+    float inside = p - (float)own;
+    Neighbours n;
+    for (int k = 0; k < 3; k++) {
+        float away = order[k] == 0 ? 0.0f : (order[k] < 0 ? inside : 1.0f - inside);
+        n.cell[k] = wrap(own + order[k], cells);
+        n.side[k] = (float)(own + order[k]);
+        n.away[k] = 0.999f * LIGHTEST * away * away;
+    }
+    return n;
+}
+
+// Least weighted square of the distance to a point of the cells around, in cells. Cells too far to
+// hold a nearer one than is found are left out.
 static float nearest(const Seed *seed, int cells, Vec3 p)
 {
-    int ix = (int)floorf(p.x), iy = (int)floorf(p.y), iz = (int)floorf(p.z);
+    Neighbours x = neighbours_along(p.x, cells), y = neighbours_along(p.y, cells),
+               z = neighbours_along(p.z, cells);
     float best = 3.0f;
-    for (int k = 0; k < 27; k++) {
-        int x = ix + k % 3 - 1, y = iy + k / 3 % 3 - 1, z = iz + k / 9 - 1;
-        const Seed *s = &seed[cell_at(x, y, z, cells)];
-        Vec3 d = vec3((float)x + s->place.x - p.x, (float)y + s->place.y - p.y,
-                      (float)z + s->place.z - p.z);
-        best = fminf(best, s->weight * vec3_dot(d, d));
+    for (int k = 0; k < 3; k++) {
+        for (int j = 0; j < 3 && z.away[k] < best; j++) {
+            const Seed *row = seed + (int64_t)(z.cell[k] * cells + y.cell[j]) * cells;
+            float away = z.away[k] + y.away[j];
+            for (int i = 0; i < 3 && away < best; i++) {
+                const Seed *s = &row[x.cell[i]];
+                Vec3 d = vec3_sub(vec3_add(vec3(x.side[i], y.side[j], z.side[k]), s->place), p);
+                float square = s->weight * vec3_dot(d, d);
+                best = square < best ? square : best;
+            }
+        }
     }
     return best;
 }
