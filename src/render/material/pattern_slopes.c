@@ -159,19 +159,19 @@ Ground slopes_turf(const SurfacePoint *point, const Turf *turf)
     PatternOctaves tufts = pattern_octaves(point, 0.05f * scale, 5, 0.7f, 0.7f, SEED_TURF + 8);
     PatternOctaves tracks = pattern_fall_lines(point, 0.09f * scale, 3, 0.65f, SEED_TURF + 16);
     float steep = smoothstepf(0.95f, 0.78f, upright + 0.04f * patches.value);
-    float dry = clampf(turf->dry + 0.55f * patches.value + 0.3f * tufts.value +
+    float dry = clampf(turf->dry + 0.9f * patches.value + 0.4f * tufts.value +
                            0.35f * steep * tracks.value,
                        0.0f, 1.0f);
     Ground g = {.color = vec3_lerp(turf->lush, turf->straw, dry)};
     float worn = steep * smoothstepf(0.25f, 0.75f,
                                      tracks.value + 0.35f * patches.value + 0.2f * tufts.value);
     g.color = vec3_lerp(g.color, turf->soil, 0.85f * worn);
-    float light = 1.0f + 0.30f * tufts.value - 0.12f * steep * tracks.value;
+    float light = 1.0f + 0.45f * tufts.value - 0.12f * steep * tracks.value;
     g.color = vec3_scale(g.color, clampf(light, 0.5f, 1.5f));
     g.slope = vec3_madd(vec3_scale(tufts.slope, 0.012f * scale), 0.02f * scale, patches.slope);
     g.slope = vec3_madd(g.slope, -0.012f * scale * steep, tracks.slope);
     // bushes keep to hollows and to moist patches, stones to worn ground
-    float moist = 0.30f - 0.7f * patches.value - 0.3f * turf->dry;
+    float moist = 0.36f - 1.1f * patches.value - 0.3f * turf->dry;
     add_mounds(point, moist, 0.065f * scale, SEED_TURF + 24, turf->bush, &g);
     add_mounds(point, 0.6f * moist, 0.028f * scale, SEED_TURF + 25, turf->bush, &g);
     Vec3 stone = vec3_lerp(vec3_splat(0.2f), turf->soil, 0.5f);

@@ -160,7 +160,8 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
     PatternOctaves broad = pattern_octaves(point, 4.0f * scale, 4, 0.55f, 1.0f, 41);
     PatternOctaves fray = pattern_octaves(point, 0.4f * scale, 6, 0.6f, 1.0f, 45);
     float ragged = 0.45f * broad.value + 0.55f * fray.value;
-    Face face = rock(m, point, shade->color, pattern_mountain_blocks(m), MOUNTAIN_BEDS, 0.7f);
+    Face face = rock(m, point, vec3_scale(shade->color, 1.0f + 0.3f * broad.value),
+                     pattern_mountain_blocks(m), MOUNTAIN_BEDS, 0.7f);
     Ground g = face.ground;
     stain(point, 0.1f * scale, upright, &g.color);
     upright += 0.3f * face.crags.ledge;
