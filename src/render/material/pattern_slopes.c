@@ -159,9 +159,9 @@ Ground slopes_turf(const SurfacePoint *point, const Turf *turf)
     PatternOctaves tufts = pattern_octaves(point, 0.05f * scale, 5, 0.7f, 0.7f, SEED_TURF + 8);
     PatternOctaves tracks = pattern_fall_lines(point, 0.09f * scale, 3, 0.65f, SEED_TURF + 16);
     float steep = smoothstepf(0.95f, 0.78f, upright + 0.04f * patches.value);
-    float dry = clampf(turf->dry + 0.9f * patches.value + 0.4f * tufts.value +
-                           0.35f * steep * tracks.value,
-                       0.0f, 1.0f);
+    float dry =
+        clampf(turf->dry + 0.9f * patches.value + 0.4f * tufts.value + 0.35f * steep * tracks.value,
+               0.0f, 1.0f);
     Ground g = {.color = vec3_lerp(turf->lush, turf->straw, dry)};
     float worn = steep * smoothstepf(0.25f, 0.75f,
                                      tracks.value + 0.35f * patches.value + 0.2f * tufts.value);
