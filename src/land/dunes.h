@@ -48,6 +48,10 @@ bool dunes_blow(Dunes *dunes, const DuneWind *wind, double time, double repose, 
 // Fills envelope and shear for the sand as it is (dunes_wind.c): steps that dunes_blow begins with.
 bool dunes_find_shear(Dunes *dunes, const DuneWind *wind, const Run *run, Error *e);
 
+// Takes the grid's steps out of crests that run across it at an angle; profiles across the crests
+// and the volume stay. (dunes_straighten.c)
+bool dunes_straighten(Dunes *dunes, const Run *run, Error *e);
+
 // Lets slopes above the tangent slide, in that many sweeps. (dunes_slide.c)
 bool dunes_slide(Dunes *dunes, double repose, int sweeps, const Run *run, Error *e);
 

@@ -187,6 +187,52 @@ static void barchans_move_downwind_the_slower_the_higher(void **state)
     }
 }
 
+// ---- crests
+
+// Ridges with slopes of 0.2 and 0.6 whose crests run at an angle to the grid, each moved aside by
+// `wobble` cells.
+static double ridge(double x, double z, double wobble)
+{
+    double across = 0.28 * x - 0.96 * z,
+           off = across - 128.0 * floor(across / 128.0) - 64.0 + wobble;
+    return 60.0 + (off < 0.0 ? 0.2 * off : -0.6 * off);
+}
+
+static void straight_crests_lose_the_steps_of_the_grid(void **state)
+{
+    (void)state;
+    enum { SIDE = 256, NEAR = 24 };
+    Run run = run_with(2);
+    Dunes *dunes = dunes_new(SIDE, SIDE, NULL), *exact = dunes_new(SIDE, SIDE, NULL);
+    double before = 0.0, after = 0.0, profile = 0.0;
+    for (int64_t i = 0; i < dunes_count(dunes); i++) {
+        double x = (double)(i % SIDE), z = (double)(i / SIDE);
+        double wobble = 0.4 * sin(TURN * (0.96 * x + 0.28 * z) / 5.0);
+        dunes->sand[i] = ridge(x, z, wobble);
+        exact->sand[i] = ridge(x, z, 0.0);
+    }
+    double volume = dunes_volume(dunes);
+    double *wobbly = malloc(sizeof(double) * (size_t)dunes_count(dunes));
+    memcpy(wobbly, dunes->sand, sizeof(double) * (size_t)dunes_count(dunes));
+    assert_true(dunes_straighten(dunes, &run, NULL));
+    assert_true(fabs(dunes_volume(dunes) - volume) < 1e-9 * volume);
+    for (int z = 128 - NEAR; z < 128 + NEAR;
+         z++) { // away from the seam, where the ridge breaks off
+        for (int x = 128 - NEAR; x < 128 + NEAR; x++) {
+            int64_t i = (int64_t)z * SIDE + x;
+            before += (wobbly[i] - exact->sand[i]) * (wobbly[i] - exact->sand[i]);
+            after += (dunes->sand[i] - exact->sand[i]) * (dunes->sand[i] - exact->sand[i]);
+            profile = fmax(profile, fabs(dunes->sand[i] - exact->sand[i]));
+        }
+    }
+    if (!(after < 0.1 * before && profile < 0.2)) { // the brink stays sharp to a fifth of a cell
+        fail_msg("error %g of %g, %g m at most", after, before, profile);
+    }
+    free(wobbly);
+    dunes_free(dunes);
+    dunes_free(exact);
+}
+
 // ---- the form
 
 static HeightField *heights(uint64_t seed, DuneKind kind, int threads, MeasureList *list)
@@ -250,6 +296,7 @@ int main(void)
         cmocka_unit_test(volume_stays_and_threads_do_not_matter),
         cmocka_unit_test(the_square_has_no_seam),
         cmocka_unit_test(barchans_move_downwind_the_slower_the_higher),
+        cmocka_unit_test(straight_crests_lose_the_steps_of_the_grid),
         cmocka_unit_test(dunes_have_natural_slopes),
         cmocka_unit_test(the_same_bits_for_any_threads),
     };

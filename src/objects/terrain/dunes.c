@@ -162,7 +162,8 @@ Dunes *terrain_blow_dunes(const Terrain *terrain, const Run *run, Error *e)
         dunes = finer;
         done = dunes && sharpen(dunes, wind, run, e);
     }
-    done = done && dunes_slide(dunes, REPOSE, 100, run, e) && dunes_find_shear(dunes, wind, run, e);
+    done = done && dunes_straighten(dunes, run, e) && dunes_slide(dunes, REPOSE, 100, run, e) &&
+           dunes_find_shear(dunes, wind, run, e);
     if (!done) {
         dunes_free(dunes);
         return NULL;
