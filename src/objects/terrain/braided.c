@@ -10,15 +10,16 @@
 
 #include <math.h>
 
-enum { LEAST_CELLS = 64, SIDE_CELLS = 256, HARMONICS = 4 };
+enum { LEAST_CELLS = 64, SIDE_CELLS = 512, HARMONICS = 4 };
 
 // Measured: the width of the plain by that of a thread, over width * slope / mean depth of the
 // flow; see tests/objects/test_braided.c.
 static const double THREADS = 0.54;
-static const float PATCH = 0.25f; // variance of the gravel's erodibility: coarse and fine sheets
-static const double BANK = 0.6;   // slope of the risers of terraces
-static const double HARD = 0.12;  // erodibility of terraces, which roots hold
-static const double OLD = 100.0;  // turnovers: age of gravel that water has not yet reached
+static const float PATCH = 0.25f;  // variance of the gravel's erodibility: coarse and fine sheets
+static const double BANK = 0.6;    // slope of the risers of terraces
+static const double HARD = 0.12;   // erodibility of terraces, which roots hold
+static const double SHEETS = 0.13; // height of sheets of gravel, share of the mean depth
+static const double OLD = 100.0;   // turnovers: age of gravel that water has not yet reached
 
 double terrain_braid_depth(const TerrainParams *params)
 {
@@ -84,6 +85,20 @@ static bool is_floor(const Terrain *terrain, double x, double z)
 
 // ---- slopes
 
+// How readily streams cut the rock: less far from the valley, so that the mountains rise toward
+// their divides, and by the mountain, so that some tower over others. fine: noise.
+static float side_weakness(const Terrain *terrain, float fine, double x, double z)
+{
+    double size = (double)terrain->params->size;
+    double edge = terrace_edge(terrain, terrain->params->braided.terraces, x, z);
+    float far = (float)((beyond_plain(terrain, x, z) - edge) / (0.3 * size));
+    uint64_t key = random_key(random_key(terrain->seed, STREAM_WEAKNESS), 1);
+    float massif =
+        sparse_noise_fractal((float)(5.0 * x / size), (float)(5.0 * z / size), 2, 0.5f, 0.0f, key);
+    float toward = lerpf(1.6f, 0.7f, smoothstepf(0.0f, 1.0f, far));
+    return clampf(toward * (1.0f - 0.5f * massif) * (1.0f + 0.6f * fine), 0.2f, 3.0f);
+}
+
 // Steep slopes that streams have cut down to the valley's floor, in balance with uplift.
 static Landscape *wear_sides(const Terrain *terrain, const Run *run, Error *e)
 {
@@ -101,7 +116,7 @@ static Landscape *wear_sides(const Terrain *terrain, const Run *run, Error *e)
         float u = (float)(x / (double)p.size), v = (float)(z / (double)p.size);
         float n = sparse_noise_fractal(14.0f * u, 14.0f * v, 5, 0.6f, 0.0f, key);
         land->rock[i] = 0.02 * (double)p.relief * (double)(2.0f + 0.3f * n);
-        land->weakness[i] = clampf(1.0f + 0.6f * n, 0.25f, 2.5f);
+        land->weakness[i] = side_weakness(terrain, n, x, z);
         if (is_floor(terrain, x, z)) {
             landscape_set_base(land, i, 0.0);
         }
@@ -273,6 +288,18 @@ static float age_at(const Terrain *terrain, int64_t i, float side, double x, dou
     return age;
 }
 
+// m: low sheets and chutes of the last floods, finer than the river's grid, drawn out along it.
+// Water of the lowest stage goes around them.
+static double sheets_at(const Terrain *terrain, double x, double z)
+{
+    const Braid *b = terrain->braid;
+    double bar = 0.4 * b->mean / b->slope;
+    uint64_t key = random_key(random_key(terrain->seed, STREAM_SAND), 1);
+    float bend = sparse_noise((float)(0.6 * x / bar), (float)(0.4 * z / bar), key);
+    float u = (float)(x / bar) + 0.5f * bend, v = (float)(0.35 * z / bar);
+    return SHEETS * b->mean * (double)sparse_noise_fractal(u, v, 4, 0.6f, 0.0f, key);
+}
+
 void terrain_sample_braided(const Terrain *terrain, HeightField *field, int64_t i, float x, float z)
 {
     const Braid *b = terrain->braid;
@@ -282,7 +309,9 @@ void terrain_sample_braided(const Terrain *terrain, HeightField *field, int64_t 
     int64_t cell = (int64_t)v * b->side + (int64_t)u;
     float side = height_field_smooth_at(terrain->sides, x, z);
     side = side > 0.0f ? side : 0.0f;
-    double bed = smooth_at(b, b->bed, u, v), plane = -b->slope * (double)z;
+    double loose = side > 0.0f ? 0.0 : (double)b->erodible[cell];
+    double bed = smooth_at(b, b->bed, u, v) + loose * sheets_at(terrain, (double)x, (double)z);
+    double plane = -b->slope * (double)z;
     field->height[i] = (float)(bed + plane) + side;
     field->age[i] = age_at(terrain, cell, side, (double)x, (double)z);
     field->loose[i] = field->age[i] < 0.9f ? (float)(2.0 * b->mean) : 0.0f;

@@ -70,7 +70,7 @@ static void needs(const void *params, Needs *needs)
         LANDSCAPE_BYTES = 140,
         LAVA_BYTES = 90,
         KARST_BYTES = 64,
-        DUNE_BYTES = 90,
+        DUNE_BYTES = 106,
         SHORE_BYTES = 48,
         BRAID_BYTES = 110,
         DELTA_BYTES = 320
@@ -230,7 +230,7 @@ static const Material BUILTIN[] = {
      .pattern_depth = 1.0f},
     {.name = "terrain/glacial",
      .kind = MATERIAL_PRINCIPLED,
-     .color = {0.250f, 0.345f, 0.350f},
+     .color = {0.165f, 0.215f, 0.210f},
      .color2 = {0.130f, 0.128f, 0.118f},
      .roughness = 0.12f,
      .specular = 0.5f,

@@ -77,7 +77,7 @@ static Cover gravel(const SurfacePoint *point, Vec3 color, float age, float broa
     Rills r = rills(point);
     float coarse = 0.5f + 0.55f * ribbons + 0.4f * sheets.value + 0.5f * r.margin - 0.7f * r.floor;
     coarse = clampf(coarse + 0.15f * grain.value, 0.0f, 1.0f);
-    Vec3 sand = vec3_mul(color, vec3(1.22f, 1.16f, 1.02f));
+    Vec3 sand = vec3_mul(color, vec3(1.14f, 1.10f, 1.03f));
     Vec3 stones = vec3_mul(color, vec3(0.88f, 0.90f, 0.91f));
     Vec3 silt = vec3_mul(color, vec3(0.66f, 0.64f, 0.57f));
     Vec3 tint = vec3_lerp(vec3_lerp(sand, stones, coarse), silt, 0.75f * r.floor);
@@ -150,27 +150,28 @@ void pattern_braided(const Material *m, const SurfacePoint *point, PatternShade 
 }
 
 // Rock flour scatters what light comes in, so depth alone tells the colour: the bed (color2) shines
-// through where water is shallow, and its stones rise from the thinnest sheets. site.x = depth /
-// (1 m + depth), site.y how rough the flow is: white where it is swift.
+// through where water is shallow, and its stones rise from the thinnest sheets. Flow draws lines of
+// smooth and of rough water along itself; riffles are rough all over. site.x = depth / (1 m +
+// depth), site.y how rough the flow is: white where it is swift.
 void pattern_glacial(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    const float clear = 0.09f; // m: depth in which the bed fades to 1 / e
+    const float clear = 0.12f; // m: depth in which the bed fades to 1 / e
     float depth = point->site.x / fmaxf(1.0f - point->site.x, 0.02f), rough = point->site.y;
-    PatternOctaves drift = pattern_octaves(point, 30.0f, 3, 0.6f, 1.0f, 443);
     PatternOctaves bed = pattern_octaves(point, 7.0f, 7, 0.62f, 1.0f, 447);
-    float over = depth + 0.07f * bed.value + 0.02f * streaks(point, 26.0f, 405) - 0.015f;
+    float lines = clampf(streaks(point, 9.0f, 443), -1.2f, 1.2f);
+    float over = depth + 0.05f * bed.value + 0.02f * streaks(point, 26.0f, 405) - 0.015f;
     float dry = smoothstepf(0.012f, -0.012f, over), seen = expf(-fmaxf(over, 0.0f) / clear);
-    Vec3 milk = vec3_scale(shade->color, 1.0f + 0.06f * clampf(drift.value, -1.0f, 1.0f));
+    Vec3 milk = vec3_scale(shade->color, 1.0f + 0.10f * lines);
     Ground stones = pattern_stones(point, m->color2);
     shade->color = vec3_lerp(milk, stones.color, 0.85f * seen + (0.15f - 0.15f * seen) * dry);
     // Waves are shorter across the flow than along their crests.
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 5.0f;
     PatternOctaves waves = pattern_octaves(point, scale, 7, 0.58f, 1.0f, 449);
     Vec3 slope = vec3(waves.slope.x, 0.0f, waves.slope.z);
-    float height = m->pattern_depth * (0.5f + 2.2f * rough * rough);
+    float height = m->pattern_depth * (0.35f + 3.2f * rough * rough) * (1.0f + 0.6f * lines);
     slope = vec3_lerp(vec3_scale(slope, height), vec3_scale(stones.slope, 0.5f), dry);
     Vec2 at = {point->object_position.z, point->object_position.x};
-    float crests = 0.35f * smoothstepf(0.55f, 0.85f, rough + 0.12f * waves.value);
+    float crests = 0.35f * smoothstepf(0.5f, 0.8f, rough + 0.12f * waves.value + 0.08f * lines);
     float foam = (1.0f - dry) * foam_share(crests, at, point->footprint);
     shade->color = vec3_lerp(shade->color, vec3_splat(0.7f), foam);
     shade->foam = fmaxf(dry, foam);
