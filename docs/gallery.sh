@@ -244,8 +244,21 @@ if is_wanted figure-12; then
     done
     sheet figure-12 2x2
 fi
-still species species
-still species-winter species-winter
+# species_rows NAME: a sheet of the four rows of trees, each as its own camera sees it.
+species_rows() {
+    is_wanted "$1" || return 0
+    panel "$1" --size 2560x600 --set camera.position='[0, 108.47, 592.61]' --set camera.target='[0, 14.61, 0]' \
+        --set camera.fov=3.2668
+    panel "$1" --size 2560x600 --set camera.position='[0, 105.17, 1192.61]' --set camera.target='[0, 11.31, 600]' \
+        --set camera.fov=2.5287
+    panel "$1" --size 2560x600 --set camera.position='[0, 99.66, 1792.61]' --set camera.target='[0, 5.8, 1200]' \
+        --set camera.fov=1.2981
+    panel "$1" --size 2560x600 --set camera.position='[0, 98.56, 2392.61]' --set camera.target='[0, 4.7, 1800]' \
+        --set camera.fov=1.0519
+    sheet "$1" 1x4
+}
+species_rows species
+species_rows species-winter
 still ivy-wall ivy-wall
 still olive-trunk olive-trunk
 still pine-rock pine-rock
