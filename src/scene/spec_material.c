@@ -50,10 +50,10 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"silt", PATTERN_SILT},
                                     {0}};
 
-static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
-                                 {"birch", BARK_BIRCH},       {"smooth", BARK_SMOOTH},
-                                 {"fibrous", BARK_FIBROUS},   {"flakes", BARK_FLAKES},
-                                 {"bands", BARK_BANDS},       {"scales", BARK_SCALES},     {0}};
+static const EnumName BARKS[] = {
+    {"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},   {"birch", BARK_BIRCH},
+    {"smooth", BARK_SMOOTH},     {"fibrous", BARK_FIBROUS}, {"flakes", BARK_FLAKES},
+    {"bands", BARK_BANDS},       {"scales", BARK_SCALES},   {0}};
 
 static const EnumName DISPLACEMENTS[] = {
     {"auto", DISPLACEMENT_AUTO}, {"off", DISPLACEMENT_OFF}, {"on", DISPLACEMENT_ON}, {0}};
