@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-// The corner of a plane's unit cells around which to look, and a cell's random numbers.
+// The seed of a cell's random numbers.
 static uint32_t cell_hash(int x, int z, uint32_t seed)
 {
     return (uint32_t)x * 0x8da6b343u + (uint32_t)z * 0xcb1ab31fu + seed * 0x9e3779b9u;
