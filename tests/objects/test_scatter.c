@@ -1,6 +1,7 @@
 // Scattering: places keep to what the parameters allow, and every copy is an instance.
 #include "base/memory.h"
 #include "base/random.h"
+#include "land/height_field.h"
 #include "mesh/ball.h"
 #include "mesh/leaf/leaf.h"
 #include "objects/common/instanced.h"
@@ -242,6 +243,55 @@ static void keeps_to_its_side_of_the_shore(void **state)
         }
         scatter_places_free(&places);
     }
+}
+
+// Land that rises to the east by the slope, with water at a level of 1 m.
+static HeightField *wet_slope(float slope)
+{
+    enum { SIDE = 257 };
+    const float cell = 0.25f;
+    HeightField *land = height_field_new(SIDE, SIDE, (Vec2){cell, cell}, (Vec2){-32, -32}, NULL);
+    assert_non_null(land);
+    land->water = calloc((size_t)height_field_count(land), sizeof *land->water);
+    for (int64_t i = 0; i < height_field_count(land); i++) {
+        float x = -32.0f + cell * (float)(i % SIDE), z = -32.0f + cell * (float)(i / SIDE);
+        land->height[i] = slope_height(&slope, x, z);
+        land->water[i] = 1.0f;
+    }
+    return land;
+}
+
+// Reeds stand at the edge of the water, on both sides of it: a condition on the depth decides
+// alone.
+static void a_depth_decides_alone(void **state)
+{
+    (void)state;
+    float slope = 0.3f;
+    HeightField *land = wet_slope(slope);
+    Thing thing = {.share = 1.0f};
+    MapRange range = {.map = HEIGHT_MAP_WATER_DEPTH, .range = {-0.25f, 0.12f}};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 100;
+    scatter.radius = 20.0f;
+    scatter.where = &range;
+    scatter.where_count = 1;
+    Run run = run_default();
+    Recipe recipe = {.seed = 8, .run = &run, .land = land};
+    for (int in_water = 0; in_water < 2; in_water++) {
+        scatter.in_water = in_water;
+        ScatterPlaces places =
+            places_of(&scatter, &recipe, &(Surroundings){.land = {slope_height, &slope}});
+        int under = 0;
+        assert_int_equal(places.count, 100);
+        for (int64_t i = 0; i < places.count; i++) {
+            float depth = 1.0f - foot(&places.place[i]).y;
+            assert_true(depth > -0.33f && depth < 0.20f); // the map knows it to a cell
+            under += depth > 0.0f;
+        }
+        assert_true(under > 15 && under < 50); // of 0.37 m a third are under water
+        scatter_places_free(&places);
+    }
+    height_field_free(land);
 }
 
 static bool is_below_5(const void *user, Vec3 p)
@@ -640,6 +690,7 @@ int main(void)
         cmocka_unit_test(fills_a_small_patch_of_a_wide_face),
         cmocka_unit_test(clumps),
         cmocka_unit_test(keeps_to_its_side_of_the_shore),
+        cmocka_unit_test(a_depth_decides_alone),
         cmocka_unit_test(afloat_is_on_the_surface),
         cmocka_unit_test(land_of_one_slope_meets_its_range_alone),
         cmocka_unit_test(copies_become_fewer_beyond_a_range),

@@ -37,8 +37,8 @@ typedef struct Search {
     PointHash *taken;            // NULL = places may be as near as they like
     const HeightField *land;     // of the terrain they stand on; NULL = none, or not known
     Where where;                 // maps that places are chosen by
-    const HeightField *wet; // the land that tells where its water is; NULL = unknown, or conditions
-                            // on the water's depth decide
+    const HeightField *wet; // the land that tells where its water is; NULL = unknown, or by_depth
+    bool by_depth;          // conditions on the water's depth decide
     float shares;           // of all things
     uint64_t seed;
 } Search;
@@ -227,7 +227,7 @@ static bool is_allowed(const Search *s, const Spot *spot)
     bool near = !s->surface || (distance >= params->inner &&
                                 (params->radius == 0.0f || distance <= params->radius));
     return near && within(slope, params->slope) && within(spot->p.y, params->altitude) &&
-           covered(s, s->wet, spot->p) == params->in_water &&
+           ((s->by_depth && params->in_water) || covered(s, s->wet, spot->p) == params->in_water) &&
            random_unit(random_key(spot->key, STREAM_WHERE)) < where_share(&s->where, spot->p);
 }
 
@@ -314,15 +314,13 @@ static bool draw_maps(Search *s, const Recipe *recipe, Error *e)
     return done;
 }
 
-// The land whose water places keep out of, or in.
-static const HeightField *find_wet(const ScatteringParams *params, const HeightField *land)
+static bool has_depth_condition(const ScatteringParams *params)
 {
+    bool any = false;
     for (int i = 0; i < params->where_count; i++) {
-        if (params->where[i].map == HEIGHT_MAP_WATER_DEPTH) {
-            return NULL;
-        }
+        any |= params->where[i].map == HEIGHT_MAP_WATER_DEPTH;
     }
-    return land && land->water ? land : NULL;
+    return any;
 }
 
 // ---- all of them
@@ -378,7 +376,8 @@ bool scatter_places_init(ScatterPlaces *places, const ScatteringParams *params,
     Search s = {
         .params = params, .around = around, .surface = recipe->surface, .seed = recipe->seed};
     s.land = recipe->land;
-    s.wet = find_wet(params, recipe->land);
+    s.by_depth = has_depth_condition(params);
+    s.wet = recipe->land && recipe->land->water && !s.by_depth ? recipe->land : NULL;
     places->place = memory_alloc(params->count, sizeof *places->place, e);
     places->thing = places->place ? memory_alloc(params->count, sizeof *places->thing, e) : NULL;
     bool done = places->thing && search_begin(&s, recipe, e) && search(&s, places, recipe->run, e);
