@@ -252,7 +252,8 @@ static HeightField *wet_slope(float slope)
     const float cell = 0.25f;
     HeightField *land = height_field_new(SIDE, SIDE, (Vec2){cell, cell}, (Vec2){-32, -32}, NULL);
     assert_non_null(land);
-    land->water = calloc((size_t)height_field_count(land), sizeof *land->water);
+    land->water = memory_alloc(height_field_count(land), sizeof *land->water, NULL);
+    assert_non_null(land->water);
     for (int64_t i = 0; i < height_field_count(land); i++) {
         float x = -32.0f + cell * (float)(i % SIDE), z = -32.0f + cell * (float)(i / SIDE);
         land->height[i] = slope_height(&slope, x, z);

@@ -24,6 +24,11 @@ static const float GRADIENT_SCALE = 2.0f / TEN_BITS;
 #define LATTICE(x, y, z, seed) \
     ((x)*0x8da6b343u + (y)*0xd8163841u + (z)*0xcb1ab31fu + (seed)*0x9e3779b9u)
 
+uint32_t noise_square(int x, int z, uint32_t seed)
+{
+    return LATTICE((uint32_t)x, 0u, (uint32_t)z, seed);
+}
+
 float noise_unit(uint32_t hash, uint32_t number)
 {
     hash += 0x9e3779b9u * (number + 1);

@@ -23,6 +23,9 @@ typedef struct CellPoint {
 
 CellPoint noise_cells(Vec3 p, uint32_t seed);
 
+// Hash of a unit square of a plane.
+uint32_t noise_square(int x, int z, uint32_t seed);
+
 // Uniform in [0, 1), from a hash and a number.
 float noise_unit(uint32_t hash, uint32_t number);
 

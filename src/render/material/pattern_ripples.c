@@ -5,12 +5,6 @@
 #include <math.h>
 #include <stddef.h>
 
-// The seed of a cell's random numbers.
-static uint32_t cell_hash(int x, int z, uint32_t seed)
-{
-    return (uint32_t)x * 0x8da6b343u + (uint32_t)z * 0xcb1ab31fu + seed * 0x9e3779b9u;
-}
-
 // ---- ripples
 
 typedef struct Phasor {
@@ -42,7 +36,7 @@ static Phasor phasor_at(float x, float z, float wave_x, float wave_z, uint32_t s
     int column = (int)floorf(x), row = (int)floorf(z);
     for (int i = 0; i < 25; i++) {
         int at_x = column + i % 5 - 2, at_z = row + i / 5 - 2;
-        uint32_t hash = cell_hash(at_x, at_z, seed);
+        uint32_t hash = noise_square(at_x, at_z, seed);
         add_wave(&sum, x - (float)at_x - noise_unit(hash, 0), z - (float)at_z - noise_unit(hash, 1),
                  wave_x, wave_z, 2.0f * PI_F * noise_unit(hash, 2));
     }
@@ -96,7 +90,7 @@ SandRelief pattern_tongues(Vec3 p, float down_x, float down_z, float length, uin
     SandRelief found = {0};
     for (int i = 0; i < 9 * EACH; i++) {
         int at_x = column + i / EACH % 3 - 1, at_z = row + i / EACH / 3 - 1;
-        uint32_t hash = cell_hash(at_x, at_z, seed + (uint32_t)(i % EACH) * 977u);
+        uint32_t hash = noise_square(at_x, at_z, seed + (uint32_t)(i % EACH) * 977u);
         float dx = x - (float)at_x - noise_unit(hash, 0),
               dz = z - (float)at_z - noise_unit(hash, 1);
         float order = noise_unit(hash, 2) + 0.001f, by_along, by_across;
