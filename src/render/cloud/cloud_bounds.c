@@ -6,32 +6,52 @@
 #include "base/memory.h"
 #include "render/cloud/profile.h"
 
+#include <string.h>
+
 enum {
     CORNERS = PARTS + 1,       // of parts, along a cell's side
-    FLAT = CELL_STEPS / 16,    // cells whose bounds are closer have no parts
-    PART_STEPS = PARTS / CELL, // parts along a voxel's side
-    CELL_NODES = CELL + 1
+    SHEET = CORNERS * CORNERS, // corners of one z
+    PLANE = CORNERS * SHEET,
+    LANES = (PARTS - 1) * (SHEET + CORNERS + 1) + 1, // up to the last part's
+    FLAT = CELL_STEPS / 16,                          // cells whose bounds are closer have no parts
+    PART_STEPS = PARTS / CELL,                       // parts along a voxel's side
+    CELL_NODES = CELL + 1,
+    NODES = CELL_NODES * CELL_NODES * CELL_NODES
 };
+
+// From a part's first corner to each of its eight.
+static const int corner_offset[8] = {0,     1,         CORNERS,         CORNERS + 1,
+                                     SHEET, SHEET + 1, SHEET + CORNERS, SHEET + CORNERS + 1};
 
 static const float ROUNDING = 1e-4f; // of shares, in lookups and here
 
 typedef struct Extremes {
-    float low, high; // shares of the greatest extinction
+    float low, high;
 } Extremes;
 
-// Depth inside the coarse form, m, softness, and share of the greatest extinction at a place; and
-// what softness decides: how far detail reaches, m, and one over the width of the edge, 1/m.
+// Depth inside the coarse form, m, softness, and share of the greatest extinction at a place.
 typedef struct Corner {
     float inside, softness, share;
-    float reach, per_edge;
 } Corner;
 
-typedef struct Box {
-    Corner corner[8];
-    float below, above; // m over the base: of its lower and its upper side
-    Vec3 middle;
-    float side;
-} Box;
+// The same at the corners of a cell's parts, z first, y last; and what softness decides: how much
+// is left of billows, how far detail reaches, m, and one over the width of the edge, 1/m. In
+// planes, so that one instruction serves many parts.
+typedef struct Corners {
+    float inside[PLANE], softness[PLANE], share[PLANE];
+    float billows[PLANE], reach[PLANE], per_edge[PLANE];
+} Corners;
+
+// Extremes in the parts of a cell: part (x, y, z) in the lane of its first corner. The lanes
+// between hold numbers that nobody reads.
+typedef struct Lanes {
+    float low[LANES], high[LANES];
+} Lanes;
+
+static int lane_of(int x, int y, int z)
+{
+    return z * SHEET + x * CORNERS + y;
+}
 
 // ---- the coarse form in a cell ----
 
@@ -58,134 +78,150 @@ static bool may_hold_droplets(const CloudGrid *g, int cx, int cy, int cz)
         Corner c =
             corner_at_node(g, cx * CELL + i / CELL_NODES % CELL_NODES, cy * CELL + i % CELL_NODES,
                            cz * CELL + i / (CELL_NODES * CELL_NODES));
-        if (c.inside > -cloud_grid_reach(g, c.softness)) {
+        if (c.inside > -reach_at(&g->rough, c.softness)) {
             return true;
         }
     }
     return false;
 }
 
-static Corner mix(Corner a, Corner b, float t)
+// Interpolates between CELL_NODES rows of `width` values to CORNERS rows; rows are a step apart.
+static void refine(const float *coarse, int coarse_step, float *fine, int fine_step, int width)
 {
-    return (Corner){.inside = lerpf(a.inside, b.inside, t),
-                    .softness = lerpf(a.softness, b.softness, t),
-                    .share = lerpf(a.share, b.share, t)};
-}
-
-typedef Corner Corners[CORNERS][CORNERS][CORNERS]; // z, x, y
-
-static void interpolate(const CloudGrid *g, int cx, int cy, int cz, Corners out)
-{
-    Corner node[CELL_NODES][CELL_NODES][CELL_NODES];
-    for (int i = 0; i < CELL_NODES * CELL_NODES * CELL_NODES; i++) {
-        int x = i / CELL_NODES % CELL_NODES, y = i % CELL_NODES, z = i / (CELL_NODES * CELL_NODES);
-        node[z][x][y] = corner_at_node(g, cx * CELL + x, cy * CELL + y, cz * CELL + z);
-    }
-    for (int i = 0; i < CORNERS * CORNERS * CORNERS; i++) {
-        int x = i / CORNERS % CORNERS, y = i % CORNERS, z = i / (CORNERS * CORNERS);
-        int a = x / PART_STEPS < CELL ? x / PART_STEPS : CELL - 1;
-        int b = y / PART_STEPS < CELL ? y / PART_STEPS : CELL - 1;
-        int c = z / PART_STEPS < CELL ? z / PART_STEPS : CELL - 1;
-        float u = (float)x / PART_STEPS - (float)a, v = (float)y / PART_STEPS - (float)b;
-        Corner edge[4];
-        for (int k = 0; k < 4; k++) {
-            const Corner *column = node[c + (k >> 1)][a + (k & 1)];
-            edge[k] = mix(column[b], column[b + 1], v);
+    for (int i = 0; i < CORNERS; i++) {
+        int node = i / PART_STEPS < CELL ? i / PART_STEPS : CELL - 1;
+        float t = (float)i / PART_STEPS - (float)node;
+        const float *a = coarse + node * coarse_step, *b = a + coarse_step;
+        for (int k = 0; k < width; k++) {
+            fine[i * fine_step + k] = lerpf(a[k], b[k], t);
         }
-        Corner here = mix(mix(edge[0], edge[1], u), mix(edge[2], edge[3], u),
-                          (float)z / PART_STEPS - (float)c);
-        here.reach = cloud_grid_reach(g, here.softness);
-        here.per_edge = 1.0f / edge_at(&g->rough, here.softness);
-        out[z][x][y] = here;
     }
 }
 
-// ---- bounds in a box ----
-
-// Of the depth that detail leaves at a corner, in shares of the edge.
-static Extremes share_at(const CloudGrid *g, Corner c, DetailRange large, DetailRange small)
+static void interpolate_plane(const float node[NODES], float plane[PLANE])
 {
-    const Roughness *r = &g->rough;
-    float billows = billows_at(c.softness);
-    float high = billows * (r->billow[0] * large.high.billow + r->billow[1] * small.high.billow) +
-                 c.softness * (r->wisp[0] * large.high.wisp + r->wisp[1] * small.high.wisp);
-    float low = billows * (r->billow[0] * large.low.billow + r->billow[1] * small.low.billow) +
-                c.softness * (r->wisp[0] * large.low.wisp + r->wisp[1] * small.low.wisp);
-    return (Extremes){unit_clamp((c.inside + low) * c.per_edge - ROUNDING),
-                      unit_clamp((c.inside + high) * c.per_edge + ROUNDING)};
-}
-
-static bool beyond_detail(const Box *box)
-{
-    bool any = false;
-    for (int i = 0; i < 8; i++) {
-        any |= box->corner[i].inside > -box->corner[i].reach;
+    float rows[CELL_NODES * CELL_NODES * CORNERS], sheets[CELL_NODES * SHEET];
+    for (int i = 0; i < CELL_NODES * CELL_NODES; i++) {
+        refine(node + i * CELL_NODES, 1, rows + i * CORNERS, 1, 1);
     }
-    return !any || box->above <= 0.0f;
+    for (int z = 0; z < CELL_NODES; z++) {
+        refine(rows + z * CELL_NODES * CORNERS, CORNERS, sheets + z * SHEET, CORNERS, CORNERS);
+    }
+    refine(sheets, SHEET, plane, SHEET, SHEET);
 }
 
-// Whether no detail changes the density: too deep inside, and too high over a ragged base.
-static bool below_detail(const CloudGrid *g, const Box *box)
+static void interpolate(const CloudGrid *g, int cx, int cy, int cz, Corners *out)
 {
-    bool all = box->below >= RAGGED_UP_TO * g->rough.base;
-    for (int i = 0; i < 8; i++) {
-        Corner c = box->corner[i];
-        all &= (c.inside - c.reach) * c.per_edge >= 1.0f + 2.0f * ROUNDING;
+    float inside[NODES], softness[NODES], share[NODES];
+    for (int i = 0; i < NODES; i++) {
+        int x = i / CELL_NODES % CELL_NODES, y = i % CELL_NODES, z = i / (CELL_NODES * CELL_NODES);
+        Corner c = corner_at_node(g, cx * CELL + x, cy * CELL + y, cz * CELL + z);
+        inside[i] = c.inside;
+        softness[i] = c.softness;
+        share[i] = c.share;
     }
-    return all;
+    interpolate_plane(inside, out->inside);
+    interpolate_plane(softness, out->softness);
+    interpolate_plane(share, out->share);
+    const Roughness r = g->rough;
+    for (int i = 0; i < PLANE; i++) {
+        out->billows[i] = billows_at(out->softness[i]);
+        out->reach[i] = reach_at(&r, out->softness[i]);
+        out->per_edge[i] = 1.0f / edge_at(&r, out->softness[i]);
+    }
 }
 
-// Of the large detail.
-static DetailRange large_in(const CloudGrid *g, const Box *box)
+// ---- what detail does to it ----
+
+static void any_corner(const bool plane[PLANE], bool any[restrict LANES])
 {
-    if (below_detail(g, box)) {
-        return detail_range_whole(g->detail);
+    for (int i = 0; i < LANES; i++) {
+        any[i] = plane[i];
     }
-    float scale = 1.0f / g->rough.period[0], half = 0.5f * box->side * scale;
-    Vec3 middle = vec3_scale(cloud_grid_turned(box->middle), scale);
-    return detail_range(g->detail, middle, vec3_scale(cloud_grid_turned_cube, half));
+    for (int k = 1; k < 8; k++) {
+        const bool *corner = plane + corner_offset[k];
+        for (int i = 0; i < LANES; i++) {
+            any[i] = any[i] | corner[i];
+        }
+    }
 }
+
+// Whether detail may leave droplets in each part, and whether it may change how many.
+static void find_touched(const Corners *c, bool droplets[LANES], bool changed[LANES])
+{
+    bool near[PLANE], shallow[PLANE];
+    for (int i = 0; i < PLANE; i++) {
+        near[i] = c->inside[i] > -c->reach[i];
+        shallow[i] = (c->inside[i] - c->reach[i]) * c->per_edge[i] < 1.0f + 2.0f * ROUNDING;
+    }
+    any_corner(near, droplets);
+    any_corner(shallow, changed);
+}
+
+// The large detail in the box around a part.
+static DetailRange large_around(const CloudGrid *g, Vec3 middle, float side)
+{
+    float scale = 1.0f / g->rough.period[0], half = 0.5f * side * scale;
+    return detail_range(g->detail, vec3_scale(cloud_grid_turned(middle), scale),
+                        vec3_scale(cloud_grid_turned_cube, half));
+}
+
+static void range_plane(const float plane[PLANE], Lanes *range)
+{
+    for (int i = 0; i < LANES; i++) {
+        range->low[i] = range->high[i] = plane[i];
+    }
+    for (int k = 1; k < 8; k++) {
+        const float *corner = plane + corner_offset[k];
+        for (int i = 0; i < LANES; i++) {
+            range->low[i] = smaller(range->low[i], corner[i]);
+            range->high[i] = larger(range->high[i], corner[i]);
+        }
+    }
+}
+
+// Of the depth that detail leaves, in shares of the edge.
+static void range_share(const Roughness *rough, const Corners *c, const Lanes *billow,
+                        const Lanes *wisp, DetailRange small, Lanes *restrict share)
+{
+    const Roughness r = *rough;
+    for (int i = 0; i < LANES; i++) {
+        share->low[i] = 1.0f;
+        share->high[i] = 0.0f;
+    }
+    for (int k = 0; k < 8; k++) {
+        const float *inside = c->inside + corner_offset[k], *soft = c->softness + corner_offset[k];
+        const float *billows = c->billows + corner_offset[k];
+        const float *per_edge = c->per_edge + corner_offset[k];
+        for (int i = 0; i < LANES; i++) {
+            float high =
+                billows[i] * (r.billow[0] * billow->high[i] + r.billow[1] * small.high.billow) +
+                soft[i] * (r.wisp[0] * wisp->high[i] + r.wisp[1] * small.high.wisp);
+            float low =
+                billows[i] * (r.billow[0] * billow->low[i] + r.billow[1] * small.low.billow) +
+                soft[i] * (r.wisp[0] * wisp->low[i] + r.wisp[1] * small.low.wisp);
+            float least = unit_clamp((inside[i] + low) * per_edge[i] - ROUNDING);
+            float most = unit_clamp((inside[i] + high) * per_edge[i] + ROUNDING);
+            share->low[i] = smaller(share->low[i], least);
+            share->high[i] = larger(share->high[i], most);
+        }
+    }
+}
+
+// ---- bounds in a part ----
 
 // Of the factor that altitude decides, or depth.
-static Extremes gain_in(const CloudGrid *g, const Box *box)
+static Extremes gain_between(const CloudGrid *g, float below, float above, Extremes inside)
 {
     if (g->pooled) { // which depth decides
-        Extremes deep = {box->corner[0].inside, box->corner[0].inside};
-        for (int i = 1; i < 8; i++) {
-            deep = (Extremes){smaller(deep.low, box->corner[i].inside),
-                              larger(deep.high, box->corner[i].inside)};
-        }
-        return (Extremes){box->below > 0.0f ? gain_at(g, 0.0f, deep.low) : 0.0f,
-                          gain_at(g, 0.0f, deep.high)};
+        return (Extremes){below > 0.0f ? gain_at(g, 0.0f, inside.low) : 0.0f,
+                          gain_at(g, 0.0f, inside.high)};
     }
-    float below = gain_at(g, box->below, 0.0f), above = gain_at(g, box->above, 0.0f);
+    float lower = gain_at(g, below, 0.0f), upper = gain_at(g, above, 0.0f);
     if (!g->fog) {
-        return (Extremes){below, above};
+        return (Extremes){lower, upper};
     }
-    return (Extremes){box->below > 0.0f ? above : 0.0f, below}; // ends sharply at its base
-}
-
-static Extremes in_box(const CloudGrid *g, const Box *box, DetailRange small)
-{
-    if (beyond_detail(box)) {
-        return (Extremes){0.0f, 0.0f};
-    }
-    DetailRange large = large_in(g, box);
-    Extremes share = {1.0f, 0.0f}, softness = {1.0f, 0.0f}, ice = {1.0f, 0.0f};
-    for (int i = 0; i < 8; i++) {
-        Corner c = box->corner[i];
-        Extremes e = share_at(g, c, large, small);
-        share = (Extremes){smaller(share.low, e.low), larger(share.high, e.high)};
-        softness = (Extremes){smaller(softness.low, c.softness), larger(softness.high, c.softness)};
-        ice = (Extremes){smaller(ice.low, c.share), larger(ice.high, c.share)};
-    }
-    float smooth = 1.0f + large.low.wisp;
-    float torn = 1.0f + large.high.wisp + RAGGED_SMALL * (1.0f + small.high.wisp);
-    Extremes gain = gain_in(g, box);
-    return (Extremes){density_at(share.low, softness.high) * gain.low * ice.low *
-                          raised_at(&g->rough, box->below, torn),
-                      density_at(share.high, softness.low) * gain.high * ice.high *
-                          raised_at(&g->rough, box->above, smooth)};
+    return (Extremes){below > 0.0f ? upper : 0.0f, lower}; // ends sharply at its base
 }
 
 // Rounded outward.
@@ -196,25 +232,92 @@ static CloudBounds in_steps(Extremes e)
     return (CloudBounds){(uint8_t)low, (uint8_t)high};
 }
 
+static Extremes in_lane(const Lanes *lanes, int lane)
+{
+    return (Extremes){lanes->low[lane], lanes->high[lane]};
+}
+
+// What bounds the extinction in each part of a cell.
+typedef struct CellLanes {
+    Lanes inside, softness, ice, share;
+    Lanes billow, wisp; // of the large detail
+    bool droplets[LANES];
+} CellLanes;
+
+// Of a part that lies from below to above, m over the base.
+static Extremes in_part(const CloudGrid *g, const CellLanes *l, int lane, float below, float above,
+                        DetailRange small)
+{
+    if (!l->droplets[lane] || above <= 0.0f) {
+        return (Extremes){0.0f, 0.0f};
+    }
+    Extremes share = in_lane(&l->share, lane), softness = in_lane(&l->softness, lane);
+    Extremes ice = in_lane(&l->ice, lane), wisp = in_lane(&l->wisp, lane);
+    float smooth = 1.0f + wisp.low;
+    float torn = 1.0f + wisp.high + RAGGED_SMALL * (1.0f + small.high.wisp);
+    Extremes gain = gain_between(g, below, above, in_lane(&l->inside, lane));
+    return (Extremes){density_at(share.low, softness.high) * gain.low * ice.low *
+                          raised_at(&g->rough, below, torn),
+                      density_at(share.high, softness.low) * gain.high * ice.high *
+                          raised_at(&g->rough, above, smooth)};
+}
+
+// Of part (x, y, z) of the grid.
+static Vec3 middle_of_part(const CloudGrid *g, int x, int y, int z)
+{
+    Vec3 places = vec3((float)x + 0.5f, (float)y + 0.5f, (float)z + 0.5f);
+    return vec3_madd(g->low, g->voxel / PART_STEPS, places);
+}
+
+// The large detail in a cell's parts: everywhere's, where it changes nothing.
+static void range_detail(const CloudGrid *g, const int cell[3], const bool changed[LANES],
+                         CellLanes *l)
+{
+    const float side = g->voxel / PART_STEPS;
+    const DetailRange whole = detail_range_whole(g->detail);
+    memset(&l->billow, 0, sizeof l->billow);
+    memset(&l->wisp, 0, sizeof l->wisp);
+    for (int i = 0; i < PARTS * PARTS * PARTS; i++) {
+        int x = i / PARTS % PARTS, y = i % PARTS, z = i / (PARTS * PARTS), lane = lane_of(x, y, z);
+        Vec3 middle =
+            middle_of_part(g, cell[0] * PARTS + x, cell[1] * PARTS + y, cell[2] * PARTS + z);
+        float below = middle.y - 0.5f * side - g->base;
+        bool reached = changed[lane] || below < RAGGED_UP_TO * g->rough.base;
+        bool asked = l->droplets[lane] && below + side > 0.0f && reached;
+        DetailRange large = asked ? large_around(g, middle, side) : whole;
+        l->billow.low[lane] = large.low.billow;
+        l->billow.high[lane] = large.high.billow;
+        l->wisp.low[lane] = large.low.wisp;
+        l->wisp.high[lane] = large.high.wisp;
+    }
+}
+
+static void describe_cell(const CloudGrid *g, const int cell[3], DetailRange small, CellLanes *l)
+{
+    Corners c;
+    bool changed[LANES];
+    interpolate(g, cell[0], cell[1], cell[2], &c);
+    find_touched(&c, l->droplets, changed);
+    range_detail(g, cell, changed, l);
+    range_plane(c.inside, &l->inside);
+    range_plane(c.softness, &l->softness);
+    range_plane(c.share, &l->ice);
+    range_share(&g->rough, &c, &l->billow, &l->wisp, small, &l->share);
+}
+
 // Fills the bounds of a cell's parts; returns those of the cell.
-static CloudBounds fill_parts(const CloudGrid *g, int cx, int cy, int cz, DetailRange small,
+static CloudBounds fill_parts(const CloudGrid *g, const int cell[3], DetailRange small,
                               CloudBounds part[])
 {
-    Corners at;
-    interpolate(g, cx, cy, cz, at);
+    CellLanes l;
+    describe_cell(g, cell, small, &l);
+    const float side = g->voxel / PART_STEPS;
     CloudBounds all = {CELL_STEPS, 0};
-    Box box = {.side = g->voxel / PART_STEPS};
     for (int i = 0; i < PARTS * PARTS * PARTS; i++) {
         int x = i / PARTS % PARTS, y = i % PARTS, z = i / (PARTS * PARTS);
-        for (int k = 0; k < 8; k++) {
-            box.corner[k] = at[z + (k >> 2)][x + (k >> 1 & 1)][y + (k & 1)];
-        }
-        Vec3 places = vec3((float)(cx * PARTS + x) + 0.5f, (float)(cy * PARTS + y) + 0.5f,
-                           (float)(cz * PARTS + z) + 0.5f);
-        box.middle = vec3_madd(g->low, box.side, places);
-        box.below = box.middle.y - 0.5f * box.side - g->base;
-        box.above = box.below + box.side;
-        part[i] = in_steps(in_box(g, &box, small));
+        float below = middle_of_part(g, 0, cell[1] * PARTS + y, 0).y - 0.5f * side - g->base;
+        Extremes e = in_part(g, &l, lane_of(x, y, z), below, below + side, small);
+        part[i] = in_steps(e);
         all.least = part[i].least < all.least ? part[i].least : all.least;
         all.most = part[i].most > all.most ? part[i].most : all.most;
     }
@@ -299,7 +402,7 @@ bool cloud_bounds_fill(CloudGrid *g, const Run *run, Error *e)
                 CloudCell *cell = &g->cell[cloud_grid_cell(g, x, y, z)];
                 if (cell->parts >= 0) {
                     CloudBounds *part = &g->part[(int64_t)cell->parts * PARTS * PARTS * PARTS];
-                    cell->bounds = fill_parts(g, x, y, z, small, part);
+                    cell->bounds = fill_parts(g, (int[3]){x, y, z}, small, part);
                     bool flat = cell->bounds.most - cell->bounds.least <= FLAT;
                     cell->parts = flat ? -1 : cell->parts;
                 }

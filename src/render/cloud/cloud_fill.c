@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "render/cloud/anvil.h"
 #include "render/cloud/heaps.h"
+#include "render/cloud/profile.h"
 #include "render/cloud/storm.h"
 
 #include <stdlib.h>
@@ -12,7 +13,7 @@ enum { WRAP = NODES_ACROSS - 1 };
 static int16_t in_steps(const CloudGrid *g, float distance)
 {
     float steps = distance / g->voxel * DISTANCE_STEPS;
-    return (int16_t)lrintf(clampf(steps, FARTHEST, -FARTHEST - 1));
+    return (int16_t)(int)rintf(clampf(steps, FARTHEST, -FARTHEST - 1)); // vectorizes, unlike lrintf
 }
 
 static int16_t in_softness(float softness)
@@ -25,7 +26,7 @@ static int16_t in_softness(float softness)
 // How far outside of a ball nodes get a distance, m: as if it were as soft as patches may make it.
 static float reach_of(const CloudGrid *g)
 {
-    return fmaxf(cloud_grid_reach(g, 0.0f), cloud_grid_reach(g, 1.0f)) + g->rough.spread +
+    return fmaxf(reach_at(&g->rough, 0.0f), reach_at(&g->rough, 1.0f)) + g->rough.spread +
            2.0f * g->voxel;
 }
 
@@ -48,9 +49,9 @@ static void unite(CloudGrid *g, const Puff *puff, int z)
             float dy = ((float)y - c.y) * puff->flatness;
             float far = g->voxel * sqrtf(dx * dx + dy * dy + dz * dz);
             int16_t inside = in_steps(g, (puff->radius - far) / puff->flatness);
-            if (inside > column[y].distance) {
-                column[y] = (CloudNode){inside, softness};
-            }
+            bool deeper = inside > column[y].distance; // stored in any case: this vectorizes
+            column[y].distance = deeper ? inside : column[y].distance;
+            column[y].softness = deeper ? softness : column[y].softness;
         }
     }
 }

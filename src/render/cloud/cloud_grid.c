@@ -72,13 +72,6 @@ static Roughness roughness_of(const Cloud *cloud)
     return r;
 }
 
-float cloud_grid_reach(const CloudGrid *g, float softness)
-{
-    const Roughness *r = &g->rough;
-    return billows_at(softness) * (r->billow[0] + r->billow[1]) +
-           softness * (r->wisp[0] + r->wisp[1]);
-}
-
 // All but what lies in memory.
 static void describe(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail)
 {
@@ -89,9 +82,9 @@ static void describe(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail
     g->extinction = cloud->extinction;
     g->pooled = false;
     if (cloud->floor) {
-        lay_out_on_floor(g, cloud, cloud_grid_reach(g, 1.0f));
+        lay_out_on_floor(g, cloud, reach_at(&g->rough, 1.0f));
     } else {
-        lay_out(g, cloud, cloud_grid_reach(g, 1.0f));
+        lay_out(g, cloud, reach_at(&g->rough, 1.0f));
     }
     for (int i = 0; i < 3; i++) {
         g->cells[i] = g->count[i] / CELL;
@@ -246,7 +239,7 @@ static Lookup lookup_begin(const CloudGrid *g, Vec3 p)
     return (Lookup){.coarse = c,
                     .above = p.y - g->base,
                     .inside = c.inside,
-                    .open = cloud_grid_reach(g, c.softness)};
+                    .open = reach_at(&g->rough, c.softness)};
 }
 
 // Whether the border's detail makes no difference to the extinction.

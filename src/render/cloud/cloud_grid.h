@@ -107,9 +107,6 @@ static inline int64_t cloud_grid_cells(const CloudGrid *g)
 Vec3 cloud_grid_turned(Vec3 p);
 extern const Vec3 cloud_grid_turned_cube; // half the box around the cube -1 .. 1 when turned
 
-// Farthest from a coarse border of this softness that detail moves the cloud's, m.
-float cloud_grid_reach(const CloudGrid *grid, float softness);
-
 // Extinction at a place, 1/m. fine: with the small detail, too.
 float cloud_grid_extinction(const CloudGrid *grid, Vec3 p, bool fine);
 

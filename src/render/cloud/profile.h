@@ -29,6 +29,13 @@ static inline float billows_at(float softness)
     return 1.0f - 0.6f * softness;
 }
 
+// Farthest from a coarse border of this softness that detail moves the cloud's, m.
+static inline float reach_at(const Roughness *r, float softness)
+{
+    return billows_at(softness) * (r->billow[0] + r->billow[1]) +
+           softness * (r->wisp[0] + r->wisp[1]);
+}
+
 static inline float density_limit(float softness)
 {
     return 1.0f - 0.55f * softness;
