@@ -11,10 +11,9 @@
 enum { STREAM_FACES = 3, STREAM_DEPTH = 4 }; // of the object's seed
 // Of the faces' key.
 enum { STREAM_OPEN = 1, STREAM_TILT = 2, STREAM_BULGE = 3, STREAM_HACKLE = 4, STREAM_FOOT = 5 };
-enum { OPEN_OCTAVES = 5 };
+enum { OPEN_OCTAVES = 6 };
 
 #define NOISE_RMS 0.25f // of noise_plane and noise_space
-#define OPEN_RMS 0.37f  // of the sum of octaves
 #define BURIED 0.1f     // grains: how far below the ice's surface faces begin
 #define SEAM 3.0f       // grains from the surface in which nothing heals: vapour keeps it open
 #define BULGE 0.12f     // of the depth
@@ -43,18 +42,19 @@ typedef struct Faces {
 
 // ---- the form of a face
 
-// How open the crack is at p, rms 1 about: patches down to the grain.
+// How open the crack is at p, of rms 1: patches, and ever finer ones down to the grain.
 static float openness(const Sheet *sheet, Vec3 p)
 {
-    float wave = 0.5f * sheet->params->depth, weight = 1.0f, sum = 0.0f;
+    float wave = 0.5f * sheet->params->depth, weight = 1.0f, sum = 0.0f, squares = 0.0f;
     uint64_t key = random_key(sheet->key, STREAM_OPEN);
-    for (uint64_t k = 0; k < OPEN_OCTAVES && wave > 2.0f * sheet->grain; k++) {
+    for (uint64_t k = 0; k < OPEN_OCTAVES && (k == 0 || wave > 2.0f * sheet->grain); k++) {
         Vec3 q = vec3(p.x / wave, p.y / (1.7f * wave), p.z / wave); // a crack runs in tongues
         sum += weight * noise_space(q, random_key(key, k));
-        wave *= 0.4f;
-        weight *= 0.75f;
+        squares += weight * weight;
+        wave *= 0.45f;
+        weight *= 0.95f;
     }
-    return sum / OPEN_RMS;
+    return sum / (NOISE_RMS * sqrtf(squares));
 }
 
 // m by which the face is off the vertical over its path at p.
