@@ -8,6 +8,7 @@
 #include "shape/mesh_close.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static Grown grow(const IceCracksParams *params, uint64_t seed)
 {
@@ -309,6 +310,22 @@ static void seeds_differ_and_sizes_scale(void **state)
     grown_clear(&large);
 }
 
+static void too_many_are_refused(void **state)
+{
+    (void)state;
+    IceCracksParams params = ice_cracks_params_default();
+    params.size = 1001.0f * params.spacing;
+    Run run = run_default();
+    Recipe recipe = {.seed = 1, .label = "object 'cracks'", .run = &run};
+    Grown grown = {0};
+    Error e = {0};
+    assert_false(ice_cracks_grow(&params, &recipe, &grown, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    assert_non_null(strstr(e.message, "object 'cracks'"));
+    assert_non_null(strstr(e.message, "spacing must be at least 0.5005 m"));
+    grown_clear(&grown);
+}
+
 static void a_cancelled_growth_stops(void **state)
 {
     (void)state;
@@ -335,6 +352,7 @@ int main(void)
         cmocka_unit_test(healing_takes_its_share_of_the_faces),
         cmocka_unit_test(faces_hang_from_their_cracks),
         cmocka_unit_test(seeds_differ_and_sizes_scale),
+        cmocka_unit_test(too_many_are_refused),
         cmocka_unit_test(a_cancelled_growth_stops),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -169,6 +169,11 @@ static bool add_vertex(Faces *faces, Vec3 p, int32_t *vertex, Error *e)
                             sizeof(Vec3), e)) {
             return false;
         }
+        if (faces->vertices == INT32_MAX) {
+            return error_set(e, ERROR_MEMORY,
+                             "cracks have more than %d vertices: a larger grain takes fewer",
+                             INT32_MAX);
+        }
         *vertex = (int32_t)faces->vertices;
         faces->position[faces->vertices++] = p;
     }

@@ -10,11 +10,13 @@ enum { STREAM_CRACK = 1 }; // of the object's seed
 enum { STREAM_PLACE = 1, STREAM_COURSE = 2, STREAM_STAR = 3, STREAM_STRAY = 4, STREAM_ARM = 8 };
 enum { STREAM_LOOSE = 1, STREAM_LENGTH = 2, STREAM_WANDER = 3 }; // of an arm's key
 enum {
-    CANDIDATES = 8,  // places of which a crack takes the one farthest from older cracks
-    STEPS = 32,      // of growth over a spacing
-    MOST_CRACKS = 24 // in a square of the spacing
+    CANDIDATES = 8,     // places of which a crack takes the one farthest from older cracks
+    STEPS = 32,         // of growth over a spacing
+    MOST_CRACKS = 24,   // in a square of the spacing
+    MOST_SQUARES = 1000 // such squares along a side
 };
 
+#define FINEST 1e-4f     // of the depth or the spacing: the least grain
 #define REACH 0.75f      // in spacings: how far off an older crack is felt where one starts
 #define BEND_REACH 0.35f // and where one runs
 #define BEND 0.22f       // share of the angle to an older crack by which a step turns beside it
@@ -28,7 +30,10 @@ float ice_cracks_step(const IceCracksParams *params)
 
 float ice_cracks_grain(const IceCracksParams *params)
 {
-    return params->grain > 0.0f ? params->grain : 0.01f * params->spacing;
+    float larger = params->depth > params->spacing ? params->depth : params->spacing;
+    float least = FINEST * larger;
+    float grain = params->grain > 0.0f ? params->grain : 0.01f * params->spacing;
+    return grain > least ? grain : least;
 }
 
 static uint64_t crack_key(uint64_t seed, int32_t crack)
@@ -200,6 +205,15 @@ static bool grow_crack(Growing *g, int32_t crack, Error *e)
 bool ice_cracks_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     const IceCracksParams *params = given;
+    double squares = (double)params->size / (double)params->spacing; // along a side
+    if (squares > (double)MOST_SQUARES) {
+        error_set(e, ERROR_INPUT,
+                  "cracks %g m apart over %g m are too many: spacing must be at least %g m, a "
+                  "thousandth of size",
+                  (double)params->spacing, (double)params->size,
+                  (double)params->size / (double)MOST_SQUARES);
+        return recipe_fail(recipe, NULL, e);
+    }
     Growing g = {.params = params,
                  .seed = recipe->seed,
                  .step = ice_cracks_step(params),
@@ -207,8 +221,7 @@ bool ice_cracks_grow(const void *given, const Recipe *recipe, Grown *whole, Erro
     if (!g.tree || !crack_field_new(&g.field, params->size, REACH * params->spacing, e)) {
         return false;
     }
-    double squares = (double)params->size / (double)params->spacing; // along a side
-    double wanted = 1.5707963 * squares * (double)params->size;      // Crofton's formula
+    double wanted = 1.5707963 * squares * (double)params->size; // Crofton's formula
     double most = (double)MOST_CRACKS * (squares * squares + 1.0);
     most = most < 1e8 ? most : 1e8;
     bool done = true;

@@ -24,7 +24,9 @@ static const Key CRACK_KEYS[] = {
     {KEY_OF(IceCracksParams, depth, "depth", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e3,
      .unit = "m", .doc = "Depth of the first cracks; later ones reach down less."},
     {KEY_OF(IceCracksParams, spacing, "spacing", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e5,
-     .unit = "m", .doc = "Mean distance from crack to crack along a line over the ice."},
+     .unit = "m",
+     .doc = "Mean distance from crack to crack along a line over the ice; at least a thousandth of "
+            "size."},
     {KEY_OF(IceCracksParams, stars, "stars", KEY_FLOAT), .high = 1,
      .doc = "Share of the cracks that open as three, 120 degrees apart; the others run two ways."},
     {KEY_OF(IceCracksParams, loose, "loose", KEY_FLOAT), .high = 1,
@@ -37,7 +39,9 @@ static const Key CRACK_KEYS[] = {
      .doc = "Share of the faces that have frozen together again, in patches: there the ice is "
             "clear."},
     {KEY_OF(IceCracksParams, grain, "grain", KEY_FLOAT), .high = 1e3, .unit = "m",
-     .doc = "Size of the finest structure of the faces; 0 = a hundredth of the spacing."},
+     .doc = "Size of the finest structure of the faces; 0 = a hundredth of the spacing. At least "
+            "0.0001 "
+            "of the depth and the spacing is used."},
     {0},
 };
 
