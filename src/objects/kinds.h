@@ -27,7 +27,8 @@
     X(scatter)      \
     X(sea)          \
     X(snow_crystal) \
-    X(frost_flower)
+    X(frost_flower) \
+    X(ice_cracks)
 
 #define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
 KINDS(DECLARE_KIND)

@@ -56,6 +56,7 @@ SMALL = {
     "climber": {"climbs": "wall", "starts": [{"position": [0, 0, 0.5]}], "height": 0.8, "spread": 0.5, "spacing": 0.1,
                 "leaves": {"max_count": 60}, "hanging": {"count": 3}},
     "snow_crystal": {"cells": 12}, "frost_flower": {"feathers": 5, "barbs": 6},
+    "ice_cracks": {"size": 2, "grain": 0.03},
     "scatter": {"count": 12, "radius": 4, "variants": 2},
 }
 # What grows in a fraction of a second on every place of a scatter.

@@ -368,6 +368,9 @@ static const struct {
     {"frost_flower: {position: @p(1 0 0.5), rotation: [0, @a(20), 0], size: @l(0.5), feathers: 8, "
      "barbs: 8}",
      ALL},
+    {"ice_cracks: {position: @p(1 0 0.5), rotation: [0, @a(20), 0], size: @l(2), spacing: @l(0.5), "
+     "depth: @l(0.2), grain: @l(0.03)}",
+     ALL},
     {"sea: {spokes: 32, extent: 30}", 0},                            // waves lie in the scene
     {"scatter: {count: 20, things: [{stone: {resolution: 4}}]}", 0}, // patches lie in the scene
     {"ground: {}", 0}, // it stands about the origin, and its bumps are as large as nature's
