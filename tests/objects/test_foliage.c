@@ -127,6 +127,32 @@ static void leaves_are_smaller_toward_the_end(void **state)
     geometry_clear(&tapered);
 }
 
+// Sizes rise in proportion to the distance from the lower end, from a third; places stay.
+static void leaves_are_smaller_toward_the_base(void **state)
+{
+    (void)state;
+    enum { SMALL = 6 };
+    const Vec3 along = {1, 0, 0};
+    LeavesParams leaves = plain_leaves(ARRANGE_DISTICHOUS);
+    Geometry equal = grow_on(&leaves, along);
+    leaves.base_leaves = SMALL;
+    Geometry tapered = grow_on(&leaves, along);
+    const Part *part = &tapered.part[0], *plain = &equal.part[0];
+    assert_int_equal(part->instance_count, plain->instance_count);
+    int small = 0;
+    for (int64_t i = 0; i < part->instance_count; i++) {
+        float above = part->instance[i].m[0][3] / (SMALL * leaves.spacing);
+        float share = above < 1.0f ? (1.0f + 2.0f * above) / 3.0f : 1.0f;
+        float full = length_of(&plain->instance[i]);
+        assert_float_equal(length_of(&part->instance[i]), share * full, 1e-4f * full);
+        assert_float_equal(part->instance[i].m[0][3], plain->instance[i].m[0][3], 1e-6f);
+        small += above < 1.0f;
+    }
+    assert_in_range(small, SMALL - 1, SMALL + 1);
+    geometry_clear(&equal);
+    geometry_clear(&tapered);
+}
+
 static void two_rows_lie_left_and_right(void **state)
 {
     (void)state;
@@ -343,6 +369,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(successive_leaves_are_turned_by_the_arrangement),
         cmocka_unit_test(leaves_are_smaller_toward_the_end),
+        cmocka_unit_test(leaves_are_smaller_toward_the_base),
         cmocka_unit_test(two_rows_lie_left_and_right),
         cmocka_unit_test(hanging_leaves_hang),
         cmocka_unit_test(a_rosette_is_at_the_end),

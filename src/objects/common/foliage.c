@@ -108,6 +108,18 @@ static bool add_node(Foliage *foliage, const CurveSet *twigs, int64_t first, int
     return done;
 }
 
+// Length (m) of the leafy part of a twig, from its tip; 0 where no leaf's size depends on it.
+static float leafy_length(const LeavesParams *leaves, const CurveSet *twigs, int64_t curve)
+{
+    float length = 0.0f;
+    int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1;
+    for (int64_t i = last;
+         leaves->base_leaves > 0 && i > first && twigs->radius[i] < leaves->twig_radius; i--) {
+        length += vec3_distance(twigs->position[i], twigs->position[i - 1]);
+    }
+    return length;
+}
+
 // Walks one twig from its tip toward its start and adds a node of leaves at every gap while the
 // twig is thin enough. If not `place`, only counts them and cannot fail.
 static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curve, bool place,
@@ -125,6 +137,7 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
                       ? 0.0f
                       : 0.2f * foliage->spacing * random_unit(random_key(twig_key, STREAM_OFFSET));
     Vec3 reference = random_direction(random_key(twig_key, STREAM_REFERENCE));
+    float left = leafy_length(leaves, twigs, curve); // from point i, m
     for (int64_t i = last; i > first && twigs->radius[i] < leaves->twig_radius; i--) {
         Vec3 a = twigs->position[i], b = twigs->position[i - 1];
         float length = vec3_distance(a, b);
@@ -136,7 +149,8 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
                              .reference = reference,
                              .radius = twigs->radius[i],
                              .number = number,
-                             .size = leaf_size_at(leaves, number),
+                             .size = leaf_size_at(leaves, number) *
+                                     leaf_size_above_base(leaves, left - until, foliage->spacing),
                              .key = random_key(twig_key, STREAM_LEAVES + (uint64_t)number)};
             if (place && !add_node(foliage, twigs, first, i, &node, e)) {
                 *failed = true;
@@ -149,6 +163,7 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
             number++;
         }
         until -= length;
+        left -= length;
     }
     return number * (pieces ? 1 : leaves_per_node(leaves));
 }

@@ -41,6 +41,13 @@ float leaf_size_at(const LeavesParams *leaves, int64_t number)
     return number < small ? (float)(number + 1) / (float)(small + 1) : 1.0f;
 }
 
+float leaf_size_above_base(const LeavesParams *leaves, float distance, float spacing)
+{
+    const float least = 1.0f / 3.0f;
+    float reach = (float)leaves->base_leaves * spacing;
+    return reach > 0.0f && distance < reach ? lerpf(least, 1.0f, distance / reach) : 1.0f;
+}
+
 // Azimuth (degrees) about the twig of leaf number k of the node.
 static float azimuth(const LeavesParams *leaves, const LeafNode *node, int k, uint64_t key)
 {

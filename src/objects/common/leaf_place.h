@@ -30,6 +30,10 @@ Vec3 leaf_reference(const LeavesParams *leaves, Vec3 reference, Vec3 along);
 // Size of the leaves of node `number`, counted from the twig's tip, relative to those far from it.
 float leaf_size_at(const LeavesParams *leaves, int64_t number);
 
+// Size of the leaves of a node `distance` (m) from the lower end of the twig's leafy part, relative
+// to those far from it. spacing: m, of the twig's nodes.
+float leaf_size_above_base(const LeavesParams *leaves, float distance, float spacing);
+
 // Key of leaf number k of the node.
 uint64_t leaf_key(const LeafNode *node, int k);
 

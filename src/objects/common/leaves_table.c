@@ -54,6 +54,10 @@ static const Key LEAVES_KEYS[] = {
      .doc = "Number of places at a twig's end whose leaves are smaller and closer toward it, as a "
             "fern's pinnules: of 9 the last leaf has 1/10 of the size, the one before it 2/10. Not "
             "of needles on the twig itself. 0 = all have the same size."},
+    {KEY_OF(LeavesParams, base_leaves, "base_leaves", KEY_INT), .high = 1000,
+     .doc = "Number of places at the lower end of a twig's leafy part whose leaves are smaller "
+            "toward it, as a lady fern's pinnae: the lowest has a third of the size. Not of "
+            "needles on the twig itself. 0 = all have the same size."},
     {KEY_OF(LeavesParams, angle, "angle", KEY_FLOAT), .high = 180, .unit = "degrees",
      .doc = "Angle between a leaf and its twig; of a rosette that of its lowest leaves."},
     {KEY_OF(LeavesParams, droop, "droop", KEY_FLOAT), .high = 1,
