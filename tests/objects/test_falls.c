@@ -512,7 +512,7 @@ static void white_water_is_what_the_river_brings(void **state)
     const Mesh *mesh = geometry.part[0].mesh;
     assert_true(mesh->vertex_count < plain.part[0].mesh->vertex_count);
     for (int64_t i = 0; i < mesh->vertex_count; i++) {
-        assert_true(mesh->position[i].y > pool + 0.7f * 12.0f);
+        assert_true(mesh->position[i].y > pool + 0.5f * 12.0f);
     }
     geometry_clear(&geometry);
     geometry_clear(&plain);

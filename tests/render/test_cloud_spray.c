@@ -99,7 +99,7 @@ static void a_ray_through_a_parcel_loses_its_share(void **state)
         double found = (double)clouds_extinction(clouds, vec3(3, 40, -7));
         assert_true(fabs(found / ((double)extinction * middle) - 1.0) <= 0.05);
         assert_true(clouds_extinction(clouds, vec3(3, 43, -7)) == 0.0f);
-        Vec3 end = vec3_madd(vec3(3, 40, -7), radius + 0.7f * drawn, axis);
+        Vec3 end = vec3_madd(vec3(3, 40, -7), 1.4f * radius + 0.5f * drawn, axis);
         assert_true((clouds_extinction(clouds, end) > 0.0f) == (k == 1));
         clouds_free(clouds);
         free(one.parcel);
