@@ -80,7 +80,7 @@ static const Key CLOUD_KEYS[] = {
      .doc = "mist: drops that air carries off from the foot of a fall, from its strands or from "
             "surf; water: the falling water itself, clots of drops and air with tails that "
             "lengthen as they fall, in place of the strands of a terrain's waterfalls below their "
-            "lips. It is as much water as the river brings, in drops of 4 mm; extinction is that "
+            "lips. It is as much water as the river brings, in drops of 6 mm; extinction is that "
             "of mist as dense as at a foot, and falling water is many times as dense."},
     {KEY_OF(Cloud, pool, "pool", KEY_FLOAT), .kinds = BIT(CLOUD_FOG), .flags = KEY_ABOVE,
      .high = 20000, .unit = "m",

@@ -106,7 +106,8 @@ static void spray_is_that_of_the_falls(void **state)
                 "clouds: [{kind: spray, of: water, over: land}, {kind: spray, over: land}]\n"
                 "objects: [{name: land, terrain: {size: 600, relief: 170, resolution: 512, "
                 "rivers: {count: 14, outlets: 1, side: south, gradient: 0.75, water: 0.01, "
-                "runoff: 16}, terraces: {count: 6, strength: 0.95, sheer: 1}}}]\n");
+                "runoff: 16}, terraces: {count: 6, strength: 0.95, sheer: 1}, "
+                "noise: {wavelength: 0.06, amplitude: 0.12}}}]\n");
     World *world = scene_build(scene, &run, NULL, &e);
     assert_non_null(world);
     int64_t parcels = 0, falls = 0;

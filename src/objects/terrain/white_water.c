@@ -19,11 +19,11 @@ enum {
 enum { NUMBER_AGE, NUMBER_SIZE, NUMBER_LONG, NUMBER_ASIDE, NUMBER_OFF, NUMBERS };
 enum { NUMBER_THREAD_ASIDE, NUMBER_THREAD_OFF, NUMBER_THREAD_BEHIND, NUMBER_THREAD_SIZE };
 
-static const float DROP = 0.004f;            // m: mean diameter of drops
+static const float DROP = 0.006f;            // m: mean diameter of drops
 static const float EXTINCTION = 0.2f;        // 1/m: of the densest spray (render/cloud/cloud.c)
-static const float GATHERED = 0.4f;          // share of a clot's water in its head and tail
+static const float GATHERED = 0.5f;          // share of a clot's water in its head and tail
 static const float CLOT[2] = {0.07f, 0.26f}; // m: radius of a head at the lip and at the foot
-static const float THREAD = 0.06f;           // m: radius
+static const float THREAD = 0.09f;           // m: radius
 
 typedef struct Clot {
     Vec3 center, along; // along: unit, down the path
