@@ -15,7 +15,7 @@ typedef struct WhiteWater {
     uint64_t key;
     double weights, falling; // sums over strands: of parcels' weights; of weights times seconds
                              // that they are white
-    double strands; // sum of strands' weights
+    double strands;          // sum of strands' weights
 } WhiteWater;
 
 typedef struct WhiteStrand {
