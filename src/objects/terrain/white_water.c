@@ -58,7 +58,7 @@ static float gust(const WhiteWater *fall, const WhiteStrand *strand, float age, 
     float broad = noise_plane_fractal(0.8f * x, 3.2f * age, 3, random_key(fall->key, 1));
     float fine = noise_plane_fractal(3.1f * x, 11.0f * age, 2, random_key(fall->key, 2));
     float split = noise_plane_fractal(1.7f * x, 0.9f * age, 3, random_key(fall->key, 3));
-    float gain = 1.0f + apart * (1.6f * broad + 1.1f * fine) + 1.7f * split;
+    float gain = 1.0f + apart * (2.4f * broad + 1.9f * fine) + 1.7f * split;
     return gain > 0.0f ? gain * gain : 0.0f;
 }
 
