@@ -247,14 +247,14 @@ fi
 # species_rows NAME: a sheet of the four rows of trees, each as its own camera sees it.
 species_rows() {
     is_wanted "$1" || return 0
-    panel "$1" --size 2560x600 --set camera.position='[0, 108.47, 592.61]' --set camera.target='[0, 14.61, 0]' \
-        --set camera.fov=3.2668
-    panel "$1" --size 2560x600 --set camera.position='[0, 105.17, 1192.61]' --set camera.target='[0, 11.31, 600]' \
-        --set camera.fov=2.5287
-    panel "$1" --size 2560x600 --set camera.position='[0, 99.66, 1792.61]' --set camera.target='[0, 5.8, 1200]' \
-        --set camera.fov=1.2981
-    panel "$1" --size 2560x600 --set camera.position='[0, 98.56, 2392.61]' --set camera.target='[0, 4.7, 1800]' \
-        --set camera.fov=1.0519
+    panel "$1" --size 2560x680 --set camera.position='[0, 107.39, 592.61]' --set camera.target='[0, 13.53, 0]' \
+        --set camera.fov=3.3726
+    panel "$1" --size 2560x680 --set camera.position='[0, 104.23, 1192.61]' --set camera.target='[0, 10.37, 600]' \
+        --set camera.fov=2.5868
+    panel "$1" --size 2560x680 --set camera.position='[0, 98.54, 1792.61]' --set camera.target='[0, 4.68, 1200]' \
+        --set camera.fov=1.1668
+    panel "$1" --size 2560x680 --set camera.position='[0, 97.52, 2392.61]' --set camera.target='[0, 3.66, 1800]' \
+        --set camera.fov=0.9131
     sheet "$1" 1x4
 }
 species_rows species
