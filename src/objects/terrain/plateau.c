@@ -295,9 +295,9 @@ Landscape *terrain_evolve_plateau(Terrain *terrain, const Run *run, Error *e)
 
 // Faces follow joints: they are not as smooth in plan as the grid of the processes makes them.
 // Moves places, all of row z.
-static void move_to_joints(const Terrain *terrain, float *x, float *z, int count)
+static void move_to_joints(const Terrain *terrain, bool worn, float *x, float *z, int count)
 {
-    const float wavelength = 0.009f * terrain->params->size;
+    const float wavelength = (worn ? 0.009f : 0.006f) * terrain->params->size;
     uint64_t key = random_key(terrain->seed, STREAM_JOINTS);
     // Places that move must not pass each other: rock would stand in needles where they do.
     float reach = 0.05f * wavelength;
@@ -324,7 +324,7 @@ void terrain_evolved_along(const Terrain *terrain, const float *x, float z, int 
         at_x[k] = x[k];
         at_z[k] = z;
     }
-    move_to_joints(terrain, at_x, at_z, count);
+    move_to_joints(terrain, worn, at_x, at_z, count);
     if (worn) {
         TerrainParams params = terrain_params_resolve(terrain->params);
         plateau_along(terrain, &params, at_x, at_z, count, whole);

@@ -13,8 +13,8 @@
 enum { ACROSS = CELL * 2 }; // samples along a cell's side; PARTS of them
 enum {
     SPRAY_BYTES = 60000000, // about, of some falls or a kilometre of surf
-    WATER_BYTES = 150000000
-}; // of the water of a fall
+    WATER_BYTES = 150000000 // about, of a fall's water
+};
 
 _Static_assert((int)PARTS == (int)ACROSS, "a part lies between samples");
 
