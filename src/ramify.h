@@ -316,10 +316,12 @@ typedef struct RamifyMeasures RamifyMeasures; // a list of named numbers
 RAMIFY_API RamifyMeasures *ramify_measure(const RamifyScene *scene, int index, const RamifyRun *run,
                                           RamifyError *error);
 
-// Measures all objects; quicker than one by one where several stand on the same land.
-// measures: ramify_scene_object_count entries, each to be freed; all are NULL after a failure.
-RAMIFY_API bool ramify_measure_all(const RamifyScene *scene, RamifyMeasures **measures,
-                                   const RamifyRun *run, RamifyError *error);
+// Measures several objects; quicker than one by one where they stand on the same land.
+// wanted: ramify_scene_object_count entries; NULL = all. measures: as many entries, each to be
+// freed; NULL where not wanted, and all of them after a failure.
+RAMIFY_API bool ramify_measure_objects(const RamifyScene *scene, const bool *wanted,
+                                       RamifyMeasures **measures, const RamifyRun *run,
+                                       RamifyError *error);
 
 // Measures of any out-tree, and of any land.
 RAMIFY_API RamifyMeasures *ramify_tree_measure(const RamifyTree *tree, RamifyError *error);

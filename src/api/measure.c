@@ -41,18 +41,19 @@ RamifyMeasures *ramify_measure(const RamifyScene *scene, int index, const Ramify
     return hand_list(list, filled, &e, error);
 }
 
-bool ramify_measure_all(const RamifyScene *scene, RamifyMeasures **measures, const RamifyRun *run,
-                        RamifyError *error)
+bool ramify_measure_objects(const RamifyScene *scene, const bool *wanted, RamifyMeasures **measures,
+                            const RamifyRun *run, RamifyError *error)
 {
     Error e = {0};
     Run own = api_run(run);
     int count = scene_of(scene)->object_count;
     MeasureList *lists = memory_alloc_zero(count, sizeof *lists, &e);
-    bool done = lists && scene_measure_objects(scene_of(scene), NULL, &own, lists, &e);
+    bool done = lists && scene_measure_objects(scene_of(scene), wanted, &own, lists, &e);
     for (int i = 0; i < count; i++) {
-        MeasureList *list = done ? new_list(&e) : NULL;
-        done = done && list;
-        if (done) {
+        bool hand = done && (!wanted || wanted[i]);
+        MeasureList *list = hand ? new_list(&e) : NULL;
+        done = done && (list || !hand);
+        if (list) {
             *list = lists[i];
         } else if (lists) {
             measures_clear(&lists[i]);

@@ -204,28 +204,45 @@ static bool judge_targets(const RamifyScene *scene, const double *values, Ramify
 
 // ---- scenes and files ----
 
+// The objects to measure, as entries of the scene's objects; NULL = out of memory. The caller frees.
+static bool *wanted_objects(const Options *options, const RamifyScene *scene, RamifyError *e)
+{
+    int count = ramify_scene_object_count(scene);
+    bool *wanted = allocate(count, sizeof *wanted, e);
+    for (int i = 0; wanted && i < count; i++) {
+        RamifyObjectInfo object;
+        ramify_scene_object(scene, i, &object);
+        wanted[i] = !options->targets;
+        for (int k = 0; k < target_count(scene) && !wanted[i]; k++) {
+            RamifyTarget target;
+            ramify_scene_target(scene, k, &target);
+            wanted[i] = strcmp(target.object, object.name) == 0;
+        }
+    }
+    return wanted;
+}
+
 static bool measure_objects(const Options *options, const RamifyScene *scene, Subject *subjects,
                             int *count, RamifyError *e)
 {
+    bool *wanted = wanted_objects(options, scene, e);
     RamifyMeasures **measures =
-        allocate(ramify_scene_object_count(scene), sizeof(RamifyMeasures *), e);
-    if (!measures) {
-        return false;
-    }
+        wanted ? allocate(ramify_scene_object_count(scene), sizeof(RamifyMeasures *), e) : NULL;
     Progress progress;
     RamifyRun run = command_run(options, &progress);
-    bool done = ramify_measure_all(scene, measures, &run, e);
+    bool done = measures && ramify_measure_objects(scene, wanted, measures, &run, e);
     progress_end(&progress);
     for (int i = 0; done && i < ramify_scene_object_count(scene); i++) {
         RamifyObjectInfo object;
         ramify_scene_object(scene, i, &object);
-        if (ramify_measures_count(measures[i]) > 0) {
+        if (wanted[i] && ramify_measures_count(measures[i]) > 0) {
             subjects[(*count)++] = (Subject){object.name, object.kind, measures[i]};
         } else {
             ramify_measures_free(measures[i]);
         }
     }
     free(measures);
+    free(wanted);
     return done;
 }
 

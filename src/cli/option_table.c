@@ -398,6 +398,12 @@ const Option option_table[] = {
      .type = OPTION_OBJECT,
      .commands = BIT(COMMAND_EXPORT),
      .doc = "write only this object; may be repeated"},
+    {.name = "targets",
+     .offset = AT(targets),
+     .type = OPTION_YES,
+     .commands = BIT(COMMAND_MEASURE),
+     .doc = "measure only the objects for which the scene states targets; others are not grown "
+            "unless those stand on them"},
     {.name = "tile",
      .value = "X,Y",
      .offset = AT(tile),

@@ -49,6 +49,7 @@ typedef struct Options {
     bool quiet, json, resolved, help, version, no_preview;
     bool markdown, paths;                    // output format of schema and info
     bool estimate;                           // info
+    bool targets;                            // measure: only objects that targets name
     bool man;                                // help: print the man page
     bool spin, vary_noise;                   // turntable
     const char *isa;                         // NULL = the best available; golden: its own

@@ -222,7 +222,7 @@ static void all_measures_are_those_of_each(void **state)
     RamifyError error = {0};
     RamifyScene *scene = load();
     RamifyMeasures *all[OBJECTS];
-    assert_true(ramify_measure_all(scene, all, NULL, &error));
+    assert_true(ramify_measure_objects(scene, NULL, all, NULL, &error));
     for (int i = 0; i < OBJECTS; i++) {
         RamifyMeasures *one = ramify_measure(scene, i, NULL, &error);
         assert_int_equal(ramify_measures_count(all[i]), ramify_measures_count(one));
@@ -236,9 +236,15 @@ static void all_measures_are_those_of_each(void **state)
         ramify_measures_free(one);
         ramify_measures_free(all[i]);
     }
+    bool wanted[OBJECTS] = {[BALL] = true};
+    assert_true(ramify_measure_objects(scene, wanted, all, NULL, &error));
+    for (int i = 0; i < OBJECTS; i++) {
+        assert_true((all[i] != NULL) == wanted[i]);
+        ramify_measures_free(all[i]);
+    }
     volatile int cancelled = 1;
     RamifyRun stopped = {.cancelled = &cancelled};
-    assert_false(ramify_measure_all(scene, all, &stopped, &error));
+    assert_false(ramify_measure_objects(scene, NULL, all, &stopped, &error));
     assert_int_equal(error.code, RAMIFY_CANCELLED);
     for (int i = 0; i < OBJECTS; i++) {
         assert_null(all[i]);

@@ -31,7 +31,7 @@ for scene in scenes/*.yaml; do
     set --
     for change in $(sed -n 's/^# small: //p' "$scene"); do set -- "$@" --set "$change"; done
     name=$(basename "$scene" .yaml)
-    measures "targets_of_$name" 0 "$scene" --quiet "$@"
+    measures "targets_of_$name" 0 "$scene" --targets --quiet "$@"
 done
 
 # So does every species of the library, as it stands alone.
@@ -70,6 +70,13 @@ says unknown_measure_hint "did you mean 'height'?"
 measures unknown_object 2 "$folder/bush.yaml" --set targets.0.object=bosh
 says unknown_object_hint "did you mean 'bush'?"
 measures not_of_this_kind 2 "$folder/bush.yaml" --set targets.0.object=floor --set targets.0.measure=terminals
+measures targets_alone 0 "$folder/bush.yaml" --targets
+if grep -q '^bush (tree)' "$out" && ! grep -q '^floor' "$out" && grep -q '^  bush height .*: met' "$out"; then
+    echo "ok only_objects_with_targets"
+else
+    echo "not ok only_objects_with_targets"
+    cat "$out"
+fi
 measures ground_too 0 "$folder/bush.yaml"
 says ground_has_a_header "floor (ground)"
 matches_line() { if grep -qE "$2" "$out"; then echo "ok $1"; else echo "not ok $1"; cat "$out"; fi; }
