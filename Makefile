@@ -425,5 +425,7 @@ $(OUT)/tests/soak/soak: tests/soak/soak.c $(OUT)/libramify.so
 
 # So many programs, each of which would optimize the path tracer anew.
 $(TEST_BIN) $(OUT)/tests/cross/compare: private LDFLAGS += -fno-lto
+# They spend their time in the library: compiled with little optimization they are there sooner.
+$(TEST_BIN): private CFLAGS += -O1
 
 -include $(LIB_OBJ:.o=.d) $(PLUGIN_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(addsuffix .d,$(TEST_BIN) $(BENCH_BIN))

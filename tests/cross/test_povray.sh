@@ -16,10 +16,10 @@ result() { # result NAME: by the status of the command before
 }
 
 for name in lamps tree twigs picture haze glass glow sky coral stand terrain; do
-    case $name in                  # as small as the limits still hold
-    picture) shrink=1 ;;           # small texels would need more rays
+    case $name in        # as small as the limits still hold
+    picture) shrink=1 ;; # small texels would need more rays
     tree) shrink=3 ;;
-    twigs) shrink=4 ;;
+    twigs | glass | coral | sky | terrain) shrink=4 ;;
     *) shrink=2 ;;
     esac
     export CROSS_SHRINK=$shrink
