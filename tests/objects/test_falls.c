@@ -433,6 +433,48 @@ static void strands_fall_into_the_pool(void **state)
     drop_valley(&v);
 }
 
+// Does a face cover the place (x, y), seen level along z?
+static bool face_covers(const Mesh *mesh, int64_t face, float x, float y)
+{
+    bool inside = false;
+    for (int k = 0; k < 4; k++) { // crossings of a ray along x with its outline
+        Vec3 a = mesh->position[mesh->index[4 * face + k]];
+        Vec3 b = mesh->position[mesh->index[4 * face + (k + 1) % 4]];
+        if ((a.y > y) != (b.y > y) && x < a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y)) {
+            inside = !inside;
+        }
+    }
+    return inside;
+}
+
+// At a lip water is level from bank to bank, and bends over as one sheet: nothing of it stands
+// higher, and below the edge it covers the whole width.
+static void water_bends_over_a_lip_as_one_sheet(void **state)
+{
+    (void)state;
+    enum { PLACES = 200 };
+    Valley v;
+    Geometry geometry;
+    int64_t lip = make_wide_fall(&v, &geometry);
+    const Mesh *mesh = geometry.part[0].mesh;
+    float edge = v.terrain.water->position[lip].y;
+    for (int i = 0; i < PLACES; i++) {
+        float x = 0.93f * HALF * (2.0f * (float)i / (PLACES - 1) - 1.0f);
+        for (int h = 1; h <= 4; h++) {
+            bool covered = false;
+            for (int64_t k = 0; !covered && k < mesh->face_count; k++) {
+                covered = face_covers(mesh, k, x, edge - 0.05f * (float)h);
+            }
+            assert_true(covered);
+        }
+    }
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        assert_true(mesh->position[i].y < edge + 0.1f);
+    }
+    geometry_clear(&geometry);
+    drop_valley(&v);
+}
+
 // Spray holds what leaves the foot until it rains out, as the closed form tells, beside its veil,
 // and hangs over the pool, no higher than the way of the fastest puff.
 static void feet_throw_up_spray(void **state)
@@ -615,6 +657,7 @@ int main(void)
         cmocka_unit_test(a_sheet_is_a_parabola),
         cmocka_unit_test(a_ledge_throws_water_out_again),
         cmocka_unit_test(strands_fall_into_the_pool),
+        cmocka_unit_test(water_bends_over_a_lip_as_one_sheet),
         cmocka_unit_test(feet_throw_up_spray),
         cmocka_unit_test(falls_carry_their_spray),
         cmocka_unit_test(white_water_is_what_the_river_brings),
