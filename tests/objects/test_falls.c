@@ -367,8 +367,11 @@ static void a_ledge_throws_water_out_again(void **state)
     drop_valley(&v);
 }
 
+typedef bool AddParts(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                      Error *e);
+
 // water: strands become white water below the lip.
-static Geometry fall_parts(const Valley *v, bool water, int threads)
+static Geometry parts_by(AddParts *add, const Valley *v, bool water, int threads)
 {
     Error e = {0};
     Run run = run_default();
@@ -381,8 +384,13 @@ static Geometry fall_parts(const Valley *v, bool water, int threads)
                        .material = material,
                        .keep_spray = true,
                        .keep_water = water};
-    assert_true(terrain_add_falls(&v->terrain, v->field, &placing, &e));
+    assert_true(add(&v->terrain, v->field, &placing, &e));
     return geometry;
+}
+
+static Geometry fall_parts(const Valley *v, bool water, int threads)
+{
+    return parts_by(terrain_add_falls, v, water, threads);
 }
 
 // Lays a river over a stepped valley: one wide fall. Returns the node at its lip.
@@ -395,6 +403,23 @@ static int64_t make_wide_fall(Valley *v, Geometry *geometry)
     assert_int_equal(count_falls(v, &lip), 1);
     *geometry = fall_parts(v, false, 1);
     return lip;
+}
+
+// The river's surface is level up to the lip, and from the foot on: its normals are those of its
+// slope of 0.002, not of the wall between them.
+static void rivers_lie_level_beside_a_wall(void **state)
+{
+    (void)state;
+    Valley v = make_valley(stepped);
+    lay(&v);
+    Geometry geometry = parts_by(terrain_add_water, &v, false, 1);
+    const Mesh *mesh = geometry.part[0].mesh; // the falls come after it
+    assert_true(mesh->vertex_count > 500);
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        assert_true(mesh->normal[i].y > 0.999f);
+    }
+    geometry_clear(&geometry);
+    drop_valley(&v);
 }
 
 // The strands of a fall lie between the parabolas of the slowest and the fastest, on both sides of
@@ -429,6 +454,48 @@ static void strands_fall_into_the_pool(void **state)
     // Free flight from the lip is the farthest; rock that juts out and the banks hold strands back.
     double mean = sum / (double)feet / (speed * sqrt(2.0 * 12.0 / 9.81));
     assert_true(mean > 0.4 && mean < 1.0);
+    geometry_clear(&geometry);
+    drop_valley(&v);
+}
+
+// Does a face cover the place (x, y), seen level along z?
+static bool face_covers(const Mesh *mesh, int64_t face, float x, float y)
+{
+    bool inside = false;
+    for (int k = 0; k < 4; k++) { // crossings of a ray along x with its outline
+        Vec3 a = mesh->position[mesh->index[4 * face + k]];
+        Vec3 b = mesh->position[mesh->index[4 * face + (k + 1) % 4]];
+        if ((a.y > y) != (b.y > y) && x < a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y)) {
+            inside = !inside;
+        }
+    }
+    return inside;
+}
+
+// At a lip water is level from bank to bank, and bends over as one sheet: nothing of it stands
+// higher, and below the edge it covers the whole width.
+static void water_bends_over_a_lip_as_one_sheet(void **state)
+{
+    (void)state;
+    enum { PLACES = 200 };
+    Valley v;
+    Geometry geometry;
+    int64_t lip = make_wide_fall(&v, &geometry);
+    const Mesh *mesh = geometry.part[0].mesh;
+    float edge = v.terrain.water->position[lip].y;
+    for (int i = 0; i < PLACES; i++) {
+        float x = 0.93f * HALF * (2.0f * (float)i / (PLACES - 1) - 1.0f);
+        for (int h = 1; h <= 4; h++) {
+            bool covered = false;
+            for (int64_t k = 0; !covered && k < mesh->face_count; k++) {
+                covered = face_covers(mesh, k, x, edge - 0.05f * (float)h);
+            }
+            assert_true(covered);
+        }
+    }
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        assert_true(mesh->position[i].y < edge + 0.1f);
+    }
     geometry_clear(&geometry);
     drop_valley(&v);
 }
@@ -614,7 +681,9 @@ int main(void)
         cmocka_unit_test(water_leaves_a_lip_at_the_speed_of_an_overfall),
         cmocka_unit_test(a_sheet_is_a_parabola),
         cmocka_unit_test(a_ledge_throws_water_out_again),
+        cmocka_unit_test(rivers_lie_level_beside_a_wall),
         cmocka_unit_test(strands_fall_into_the_pool),
+        cmocka_unit_test(water_bends_over_a_lip_as_one_sheet),
         cmocka_unit_test(feet_throw_up_spray),
         cmocka_unit_test(falls_carry_their_spray),
         cmocka_unit_test(white_water_is_what_the_river_brings),

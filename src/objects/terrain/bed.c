@@ -220,6 +220,45 @@ static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
     return !run_is_cancelled(run);
 }
 
+// The share of its depth that a bed has at a node: none at the lip of a fall, where the rock is an
+// even sill that the water runs over as a sheet, all of it from half the river's width upstream on.
+static float sill_share(const Terrain *terrain, int32_t node)
+{
+    const OutTree *water = terrain->water;
+    const float reach = water->radius[node];
+    float run = 0.0f;
+    for (int32_t i = node; run < reach && water->parent[i] >= 0; i = water->parent[i]) {
+        if (terrain->drop[i] > 0.0f) {
+            return smoothstepf(0.0f, reach, run);
+        }
+        Vec3 step = vec3_sub(water->position[i], water->position[water->parent[i]]);
+        run += sqrtf(step.x * step.x + step.z * step.z);
+    }
+    return 1.0f;
+}
+
+// Raises the beds above the lips of falls to their sills. After hollows are filled: the bed behind
+// a sill is one, and stays.
+static bool raise_sills(const Terrain *terrain, HeightField *field, const Run *run)
+{
+#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
+    for (int row = 0; row < field->rows; row++) {
+        for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
+            int64_t i = (int64_t)row * field->columns + column;
+            float x = field->origin.x + (float)column * field->cell.x;
+            float z = field->origin.y + (float)row * field->cell.y;
+            int32_t node;
+            float away = terrain->bank[i] ? trough_envelope_at(terrain->shore, x, z, &node) : 0.0f;
+            if (away < 0.0f) {
+                float half = terrain->water->radius[node];
+                float more = terrain_bed_depth(half, half + away) - terrain_bed_depth(half, half);
+                field->height[i] += (1.0f - sill_share(terrain, node)) * more;
+            }
+        }
+    }
+    return !run_is_cancelled(run);
+}
+
 // A river that crosses a lake is as high as the lake.
 static void rest_on_lakes(Terrain *terrain, const HeightField *field)
 {
@@ -260,7 +299,8 @@ bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Er
     terrain->bank = memory_alloc_zero(height_field_count(field), 1, e);
     return terrain->shore && terrain->bank &&
            (dig_beds(terrain, field, run) || run_cancel_error(e)) &&
-           height_field_fill(field, 0.0f, e);
+           height_field_fill(field, 0.0f, e) &&
+           (raise_sills(terrain, field, run) || run_cancel_error(e));
 }
 
 // ---- the water over the land

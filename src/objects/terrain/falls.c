@@ -80,6 +80,7 @@ int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *pla
 
 enum {
     ROWS = 96,   // of a strand
+    SHEET = 28,  // rows of the sheet in which water leaves the lip
     STEPS = 160, // of its path
     ACROSS = 72, // strands of a layer ...
     MANY = 26,   // ... of at most so many falls; of more falls fewer, but never fewer than
@@ -122,7 +123,8 @@ static Vec3 strand_start(const FallMesher *f, float side)
     Vec3 middle = f->terrain->water->position[f->lip];
     Vec3 p = vec3_madd(middle, side * f->half, f->across);
     p = vec3_madd(p, -0.3f * f->field->cell.x, f->way);
-    p.y = height_mesh_finest_at(f->field, p.x, p.z) + terrain_bed_depth(f->half, f->half);
+    float over = height_mesh_finest_at(f->field, p.x, p.z) + terrain_bed_depth(f->half, f->half);
+    p.y = fmaxf(middle.y, over);
     return p;
 }
 
@@ -141,16 +143,16 @@ static float tongue(const FallMesher *f, float side)
     return clampf(1.0f + 1.5f * broad + 1.1f * narrow, 0.0f, 2.2f);
 }
 
-// *step: s between its places.
-static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS], float *step)
+// m/s, of the water at a place across the lip.
+static float speed_at(const FallMesher *f, float side)
 {
-    float side = strand_side(f, strand);
-    float fast = 1.0f - 0.35f * side * side; // banks hold the water back
-    fast *= lerpf(0.7f, 1.25f, number_of(f, strand, NUMBER_SPEED));
-    fast *= 0.6f + 0.4f * tongue(f, side);
-    float drift = 0.16f * f->speed * (number_of(f, strand, NUMBER_DRIFT) - 0.5f);
-    Vec3 velocity = vec3_madd(vec3_scale(f->way, fast * f->speed), drift, f->across);
-    velocity.y = 0.25f * f->speed * (number_of(f, strand, NUMBER_LIFT) - 0.5f);
+    float held = 1.0f - 0.35f * side * side; // by the banks
+    return held * (0.6f + 0.4f * tongue(f, side)) * f->speed;
+}
+
+// The path of what leaves the lip at a place across. *step: s between its places.
+static int path_from(const FallMesher *f, float side, Vec3 velocity, Vec3 place[STEPS], float *step)
+{
     Vec3 start = strand_start(f, 0.97f * side);
     float height = start.y > f->level ? start.y - f->level : 0.0f;
     FallPath path = {.land = f->field,
@@ -160,6 +162,16 @@ static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS], float
                      .step = sqrtf(2.0f * height / GRAVITY) / (0.6f * STEPS)};
     *step = path.step;
     return path.step > 0.0f ? terrain_fall_path(&path, start, velocity, place, STEPS) : 0;
+}
+
+static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS], float *step)
+{
+    float side = strand_side(f, strand);
+    float fast = lerpf(0.7f, 1.25f, number_of(f, strand, NUMBER_SPEED)) * speed_at(f, side);
+    float drift = 0.16f * f->speed * (number_of(f, strand, NUMBER_DRIFT) - 0.5f);
+    Vec3 velocity = vec3_madd(vec3_scale(f->way, fast), drift, f->across);
+    velocity.y = 0.25f * f->speed * (number_of(f, strand, NUMBER_LIFT) - 0.5f);
+    return path_from(f, side, velocity, place, step);
 }
 
 // Below the lip a strand parts into clots, evenly spaced in the time of its fall, and the longer it
@@ -180,29 +192,45 @@ static float strand_width(const FallMesher *f, int strand)
     return lerpf(0.25f, 1.9f, wide * wide) * tongue(f, strand_side(f, strand));
 }
 
-// Half the width of a strand where it has fallen by this share: whole at the lip, torn below.
+// Half the width of a strand where it has fallen by this share: none at the lip, where the sheet
+// is, torn below.
 static float strand_half(const FallMesher *f, int strand, float share)
 {
     float spacing = 2.0f * f->half / (float)f->columns;
     float from = strand < f->columns ? 0.0f : 0.75f * number_of(f, strand, NUMBER_START);
     float torn = lerpf(1.4f, lerpf(0.25f, 0.65f, f->cover), smoothstepf(0.0f, 0.6f, share));
     float own = strand_width(f, strand);
-    float grown = smoothstepf(from, from + 0.12f, share + (strand < f->columns ? 0.12f : 0.0f));
+    float grown = smoothstepf(from, from + 0.12f, share);
     own = fminf(own * clots(f, strand, share), 4.2f); // no wider than the widest whole one
     grown *= f->breaks ? 1.0f - white_water_share(share) : 1.0f;
     return 0.5f * spacing * torn * own * grown; // at most about 1.5 spacings
+}
+
+// A quad between vertices v and v + 1 of a row and those of the row above it, `columns` before:
+// seen from the front, counter-clockwise.
+static void add_quad(FallMesher *f, uint32_t v, uint32_t columns)
+{
+    uint32_t *corner = f->mesh->index + 4 * f->faces++;
+    corner[0] = v - columns;
+    corner[1] = v;
+    corner[2] = v + 1;
+    corner[3] = v + 1 - columns;
+}
+
+static void add_vertex(FallMesher *f, Vec3 at, float foam)
+{
+    int64_t v = f->vertices++;
+    f->mesh->position[v] = vec3_add(at, f->terrain->params->position);
+    f->mesh->uv[v] = (Vec2){f->mesh->position[v].x, f->mesh->position[v].z};
+    f->mesh->foam[v] = foam;
 }
 
 static void add_strand_row(FallMesher *f, Vec3 p, Vec3 along, float half, float foam)
 {
     Vec3 front = vec3_normalize(vec3_cross(along, f->across));
     for (int i = 0; i < 3; i++) {
-        int64_t v = f->vertices + i;
         Vec3 at = vec3_madd(p, (float)(i - 1) * half, f->across);
-        at = i == 1 ? vec3_madd(at, 0.6f * half, front) : at;
-        f->mesh->position[v] = vec3_add(at, f->terrain->params->position);
-        f->mesh->uv[v] = (Vec2){f->mesh->position[v].x, f->mesh->position[v].z};
-        f->mesh->foam[v] = foam;
+        add_vertex(f, i == 1 ? vec3_madd(at, 0.6f * half, front) : at, foam);
     }
 }
 
@@ -227,15 +255,65 @@ static void add_strand(FallMesher *f, int strand)
         float foam = lerpf(fmaxf(lip, 0.35f), white, smoothstepf(0.0f, 0.12f, share));
         foam = lerpf(foam, 1.0f, smoothstepf(0.6f, 1.0f, share));
         add_strand_row(f, p, vec3_sub(place[k + 1], place[k]), strand_half(f, strand, share), foam);
-        for (int i = 0; i < 2 && row > 0; i++) {
-            uint32_t *corner = f->mesh->index + 4 * f->faces++;
-            uint32_t v = (uint32_t)(f->vertices + i);
-            corner[0] = v - 3;
-            corner[1] = v;
-            corner[2] = v + 1;
-            corner[3] = v - 2;
+        for (uint32_t i = 0; i < 2 && row > 0; i++) {
+            add_quad(f, (uint32_t)f->vertices - 3 + i, 3);
         }
-        f->vertices += 3;
+    }
+}
+
+// ---- the sheet
+
+static int sheet_columns(const FallMesher *f)
+{
+    return 2 * f->columns + 1;
+}
+
+static float share_fallen(const FallMesher *f, const Vec3 *place, int k)
+{
+    return (place[0].y - place[k].y) / fmaxf(place[0].y - f->level, 1e-6f);
+}
+
+// The place on a path, in steps, where it has fallen by this share of its height.
+static float step_at(const FallMesher *f, const Vec3 *place, int count, float share)
+{
+    int k = 0;
+    while (k < count - 2 && share_fallen(f, place, k + 1) < share) {
+        k++;
+    }
+    float from = share_fallen(f, place, k), to = share_fallen(f, place, k + 1);
+    return (float)k + clampf((share - from) / fmaxf(to - from, 1e-6f), 0.0f, 1.0f);
+}
+
+// Water bends over the lip as one sheet, clear at first, then white in streaks; it is torn where
+// the strands of it are wide enough, earlier where rocks hold it back. Its columns begin as level
+// as the river ends.
+static void add_sheet(FallMesher *f)
+{
+    uint32_t columns = (uint32_t)sheet_columns(f), first = (uint32_t)f->vertices;
+    uint64_t seed = random_key(f->terrain->water->id[f->lip], STRANDS + 4);
+    float lip = f->terrain->flow[f->lip].foam;
+    f->vertices += (int64_t)columns * SHEET;
+    for (uint32_t column = 0; column < columns; column++) {
+        float side = 2.0f * (float)column / (float)(columns - 1) - 1.0f, step;
+        Vec3 place[STEPS];
+        int count = path_from(f, side, vec3_scale(f->way, speed_at(f, side)), place, &step);
+        float x = side * f->half, streak = noise_plane_fractal(2.7f * x, 0.7f, 3, seed);
+        float ends = lerpf(0.05f, 0.2f, fminf(tongue(f, side), 1.0f)) * (1.0f + 0.5f * streak);
+        float last = count > 1 ? step_at(f, place, count, ends) : 0.0f;
+        for (uint32_t row = 0; row < SHEET; row++) {
+            float along = (float)row / (SHEET - 1), at = along * last;
+            int k = count > 1 && (int)at > count - 2 ? count - 2 : (int)at;
+            Vec3 p = count > 1 ? vec3_lerp(place[k], place[k + 1], at - (float)k)
+                               : strand_start(f, 0.97f * side);
+            float white = smoothstepf(0.1f, 0.9f, along + 0.7f * streak * (1.0f - along));
+            int64_t next = f->vertices;
+            f->vertices = first + row * columns + column;
+            add_vertex(f, p, lerpf(lip, 1.0f, white));
+            f->vertices = next;
+            if (row > 0 && column + 1 < columns) {
+                add_quad(f, first + row * columns + column, columns);
+            }
+        }
     }
 }
 
@@ -262,8 +340,13 @@ static Mesh *fall_mesh(FallMesher *f, const int32_t *main, Error *e)
     f->cover = thick / (thick + 0.01f); // sheets of a centimetre are torn
     f->vertices = f->faces = 0;
     int strands = f->columns * LAYERS;
-    f->mesh = mesh_new(4, (int64_t)strands * ROWS * 3, (int64_t)strands * (ROWS - 1) * 2,
+    int64_t columns = sheet_columns(f);
+    f->mesh = mesh_new(4, (int64_t)strands * ROWS * 3 + columns * SHEET,
+                       (int64_t)strands * (ROWS - 1) * 2 + (columns - 1) * (SHEET - 1),
                        MESH_NORMAL | MESH_UV | MESH_FOAM, e);
+    if (f->mesh) {
+        add_sheet(f);
+    }
     for (int i = 0; f->mesh && i < strands; i++) {
         add_strand(f, i);
     }

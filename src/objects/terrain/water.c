@@ -84,21 +84,6 @@ typedef struct Ribbons {
     int64_t vertices, faces;
 } Ribbons;
 
-// Share by which the water at a node has sunk toward its bed, since it speeds up to a lip just
-// below.
-static float drawdown(const Ribbons *r, int32_t node)
-{
-    const float shares[] = {1.0f, 0.6f, 0.3f, 0.1f};
-    int32_t at = node;
-    for (int k = 0; k < 4 && at >= 0; k++) {
-        if (r->terrain->drop[at] > 0.0f) {
-            return shares[k];
-        }
-        at = r->water->parent[at];
-    }
-    return 0.0f;
-}
-
 // A vertex `side` times half the width from the middle: at the river's level, but in cascades,
 // which the cells resolve poorly, always on the land; in pools, below the wall of a fall, under it.
 // Outermost vertices, beyond 1, are below the shore.
@@ -119,8 +104,6 @@ static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half,
     float depth = terrain_bed_depth(half, fabsf(side) * half);
     float least = pool ? fminf(land + 0.5f * film, middle.y) : land + 0.5f * film;
     p.y = clampf(middle.y, least, land + depth + film);
-    float low = fminf(land + film, p.y);
-    p.y = pool ? lerpf(p.y, low, drawdown(r, node)) : p.y;
     return p;
 }
 
@@ -186,6 +169,9 @@ static void add_stem(Ribbons *r, int32_t first)
         if (r->mesh) {
             Vec3 from = water->position[below >= 0 ? below : here];
             Vec3 to = water->position[above >= 0 ? above : here];
+            // Water is as level at a lip, and at a foot, as beside it.
+            from.y = r->terrain->drop[here] > 0.0f ? at.y : from.y;
+            to.y = above >= 0 && r->terrain->drop[above] > 0.0f ? at.y : to.y;
             // A brook enters a wider river with its own width.
             float half = below < 0 ? water->radius[first] : water->radius[here];
             add_row(r, water->position[here], from, to, half, columns, here);

@@ -14,28 +14,36 @@
 
 #include <stddef.h>
 
-// Foam and what lies below it: bubbles that a breaker has taken down turn the water pale green
-// around it, softly. Sets the share of the pixel that scatters light at once, and its reflectance.
-static void whiten(Bsdf *b, const WavePoint *wave, const Waves *waves, const SurfacePoint *point)
+// Foam and what lies below it: bubbles that a breaker or a fall has taken down turn the water pale
+// green around it, softly. Sets the share of the pixel that scatters light at once, and its
+// reflectance. cover: of the surroundings; foam: of the pixel.
+static void whiten(Bsdf *b, float cover, float foam)
 {
     const Vec3 plume = {0.10f, 0.27f, 0.26f};
-    float cover = waves_foam(waves, wave);
-    if (cover <= 0.0f) {
-        return;
-    }
-    Vec2 at = {point->uv.x * waves->way.x + point->uv.y * waves->way.y,
-               point->uv.y * waves->way.x - point->uv.x * waves->way.y};
-    float foam = foam_share(cover, at, point->footprint);
     float below = (1.0f - foam) * 0.55f * cover;
     b->foam = foam + below;
     b->foam_color = vec3_scale(vec3_add(vec3_scale(b->foam_color, foam), vec3_scale(plume, below)),
                                1.0f / b->foam);
 }
 
+static void whiten_sea(Bsdf *b, const WavePoint *wave, const Waves *waves,
+                       const SurfacePoint *point)
+{
+    float cover = waves_foam(waves, wave);
+    if (cover > 0.0f) {
+        Vec2 at = {point->uv.x * waves->way.x + point->uv.y * waves->way.y,
+                   point->uv.y * waves->way.x - point->uv.x * waves->way.y};
+        whiten(b, cover, foam_share(cover, at, point->footprint));
+    }
+}
+
 static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, Vec3 wo)
 {
     b->foam_color = entry->material.color2;
     if (!point->waves || !point->has_uv) {
+        if (point->foam > 0.0f) {
+            whiten(b, point->foam, b->foam); // its pattern tells where foam lies
+        }
         return;
     }
     // A pixel is longer along the view than across.
@@ -47,7 +55,7 @@ static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point
     float facing = vec3_dot(normal, wo);
     // Slopes that turn away are hidden by others, which face the viewer.
     b->normal = facing < 0.0f ? vec3_madd(normal, -2.0f * facing, wo) : normal;
-    whiten(b, &wave, point->waves, point);
+    whiten_sea(b, &wave, point->waves, point);
     // The core of GGX is as wide as that of a Gaussian of these slopes; its tails are wider.
     float alpha = 0.75f * sqrtf(wave.roughness2);
     b->roughness = sqrtf(clampf(fmaxf(alpha, b->alpha), 0.0f, 0.5f));
