@@ -71,7 +71,7 @@ static void still_water_stays_level(void **state)
     for (int64_t i = 0; i < braid_count(b); i++) {
         b->depth[i] = (float)fmax(0.3 - b->bed[i], 0.0); // islands stand out of it
     }
-    braid_take_ground(b);
+    braid_begin(b);
     for (int n = 0; n < 200; n++) {
         braid_flow(b, braid_step_limit(b), 1);
     }
