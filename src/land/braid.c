@@ -17,7 +17,9 @@ Braid *braid_new(int side, double size, double width, double slope, double mean,
     float **arrays[] = {&b->depth,    &b->flow_x, &b->flow_z, &b->shear,  &b->age,
                         &b->erodible, &b->ground, &b->next_x, &b->next_z, &b->share};
     bool done = (b->bed = memory_alloc_zero(count, sizeof *b->bed, e)) &&
-                (b->load = memory_alloc_zero(3 * count, sizeof *b->load, e));
+                (b->load = memory_alloc_zero(3 * count, sizeof *b->load, e)) &&
+                (b->span = memory_alloc_zero(side, sizeof *b->span, e)) &&
+                (b->wet = memory_alloc_zero(side, sizeof *b->wet, e));
     for (size_t k = 0; done && k < sizeof arrays / sizeof *arrays; k++) {
         *arrays[k] = memory_alloc_zero(count, sizeof(float), e);
         done = *arrays[k];
@@ -47,6 +49,8 @@ void braid_free(Braid *b)
         free(b->next_z);
         free(b->share);
         free(b->load);
+        free(b->span);
+        free(b->wet);
         free(b);
     }
 }
@@ -129,8 +133,11 @@ static void correct_discharge(Braid *b, double wanted)
     double ratio = now > 0.0 ? wanted / now : 2.0;
     ratio = ratio > 2.0 ? 2.0 : ratio < 0.5 ? 0.5 : ratio;
     float scale = (float)(1.0 + BRAID_CORRECTION * (ratio - 1.0));
-    for (int64_t i = 0; i < braid_count(b); i++) {
-        b->depth[i] *= scale;
+    for (int row = 0; row < b->side; row++) {
+        float *depth = b->depth + (int64_t)row * b->side;
+        for (int c = b->span[row].begin; c < b->span[row].end; c++) {
+            depth[c] *= scale;
+        }
     }
 }
 
@@ -138,7 +145,7 @@ bool braid_run(Braid *b, const BraidRates *rates, const Run *run, Error *e)
 {
     double wanted = rates->discharge * braid_forming_discharge(b);
     int64_t updates = 1 + (int64_t)(rates->turnovers / braid_update_turnovers(b));
-    braid_take_ground(b);
+    braid_begin(b);
     for (int64_t n = 0; n < updates; n++) {
         if (run_is_cancelled(run)) {
             return run_cancel_error(e);

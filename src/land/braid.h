@@ -14,6 +14,11 @@
 
 #include <stdint.h>
 
+// Columns from `begin` to before `end`; none if they are equal.
+typedef struct BraidSpan {
+    int begin, end;
+} BraidSpan;
+
 // A square of side * side cells, row by row; rows follow one another downstream, columns go across.
 typedef struct Braid {
     int side;
@@ -31,8 +36,10 @@ typedef struct Braid {
     float *ground;   // work: the bed
     float *next_x;   // work: flows after a step
     float *next_z;
-    float *share; // work: of the outflow that a cell can give
-    float *load;  // work: 2 a cell: bed load along x and z, 3: its amount
+    float *share;    // work: of the outflow that a cell can give
+    float *load;     // work: bed load along x of all cells, then along z, then its amount
+    BraidSpan *span; // work, of each row: where water may be; all else is dry and at rest
+    BraidSpan *wet;  // work, of each row: where it is
 } Braid;
 
 typedef struct BraidRates {

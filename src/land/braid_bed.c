@@ -3,24 +3,42 @@
 
 #define STEEPEST 1.0f // slope of banks beyond which they cave in no faster
 
+// Roots hold old banks.
+static inline float softness(float erodible, float age)
+{
+    const float half = 8.0f; // turnovers in which plants take half of what they can hold
+    return erodible * (1.0f - (float)BRAID_ROOTS * age / (age + half));
+}
+
+// Fills b->share with how soft the ground is, for move_row.
 static void load_row(Braid *b, float scale, float aged, int row)
 {
     int side = b->side;
     int64_t here = (int64_t)row * side, south = (int64_t)((row + 1) % side) * side;
     const float *x = b->flow_x + here, *z = b->flow_z + here, *zs = b->flow_z + south;
+    float *load_x = b->load + here, *load_z = load_x + braid_count(b);
+    float *load_all = load_z + braid_count(b), *age = b->age + here;
     float least = 0.05f * (float)b->mean;
-    for (int c = 0; c < side; c++) {
-        int64_t i = here + c;
-        float depth = b->depth[i] > least ? b->depth[i] : least;
+    int begin = b->span[row].begin, end = b->span[row].end;
+    for (int c = 0; c < begin; c++) {
+        age[c] += aged;
+    }
+    for (int c = end; c < side; c++) {
+        age[c] += aged;
+    }
+#pragma omp simd
+    for (int c = begin; c < end; c++) {
+        float depth = b->depth[here + c] > least ? b->depth[here + c] : least;
         float qx = 0.5f * (x[c] + (c + 1 < side ? x[c + 1] : 0.0f)), qz = 0.5f * (z[c] + zs[c]);
         float amount = sqrtf(qx * qx + qz * qz), speed = amount / depth;
         float shear = scale * speed * speed, load = braid_load_of(shear);
         float along = amount > 0.0f ? load / amount : 0.0f;
-        b->shear[i] = shear;
-        b->load[3 * i] = along * qx;
-        b->load[3 * i + 1] = along * qz;
-        b->load[3 * i + 2] = load;
-        b->age[i] = load > 0.0f ? 0.0f : b->age[i] + aged;
+        b->shear[here + c] = shear;
+        load_x[c] = along * qx;
+        load_z[c] = along * qz;
+        load_all[c] = load;
+        age[c] = load > 0.0f ? 0.0f : age[c] + aged;
+        b->share[here + c] = softness(b->erodible[here + c], age[c]);
     }
 }
 
@@ -35,47 +53,68 @@ void braid_find_load(Braid *b, int threads)
     }
 }
 
-// Roots hold old banks.
-static inline float softness(const Braid *b, int64_t i)
+// The load through the sides of `count` cells along an axis, from each cell of index from + n to
+// that of index to + n. flow: of the water there; load: along the axis. Rows are worked on by
+// several threads, so each side has its own place to write to.
+static void load_between(const Braid *b, int64_t from, int64_t to, int count, const float *flow,
+                         const float *load, float *through)
 {
-    const float half = 8.0f; // turnovers in which plants take half of what they can hold
-    return b->erodible[i] * (1.0f - (float)BRAID_ROOTS * b->age[i] / (b->age[i] + half));
+    const float *load_all = b->load + 2 * braid_count(b), *ground = b->ground;
+    const float *erodible = b->erodible, *soft = b->share;
+    float aside = (float)(BRAID_DEFLECTION / b->slope), cell = (float)b->cell;
+#pragma omp simd
+    for (int n = 0; n < count; n++) {
+        int64_t i = from + n, j = to + n;
+        float first = load[i] * erodible[i], second = load[j] * erodible[j];
+        float carried = flow[n] > 0.0f ? first : second;
+        float most = load_all[i] > load_all[j] ? load_all[i] : load_all[j];
+        float fall = (ground[i] - ground[j]) / cell;
+        fall = fall > STEEPEST ? STEEPEST : fall < -STEEPEST ? -STEEPEST : fall;
+        float softer = fall > 0.0f ? soft[i] : soft[j];
+        through[n] = carried + aside * softer * most * fall;
+    }
 }
 
-// The load through the side between cells i and j, i before j along axis 0 = x or 1 = z.
-static inline double load_between(const Braid *b, int64_t i, int64_t j, int axis, float flow)
+// The load through the west and the north sides of a row's cells, into the work arrays of the
+// flow.
+static void load_through_row(Braid *b, int row)
 {
-    int64_t from = flow > 0.0f ? i : j;
-    float carried = b->load[3 * from + axis] * b->erodible[from];
-    float most = b->load[3 * i + 2] > b->load[3 * j + 2] ? b->load[3 * i + 2] : b->load[3 * j + 2];
-    float fall = (b->ground[i] - b->ground[j]) / (float)b->cell;
-    fall = fall > STEEPEST ? STEEPEST : fall < -STEEPEST ? -STEEPEST : fall;
-    float soft = softness(b, fall > 0.0f ? i : j);
-    float aside = (float)(BRAID_DEFLECTION / b->slope);
-    return (double)(carried + aside * soft * most * fall);
+    int side = b->side, begin = b->span[row].begin, end = b->span[row].end;
+    int64_t here = (int64_t)row * side, north = (int64_t)((row + side - 1) % side) * side;
+    int west = begin > 1 ? begin : 1;
+    b->next_x[here] = 0.0f;
+    load_between(b, here + west - 1, here + west, end - west, b->flow_x + here + west, b->load,
+                 b->next_x + here + west);
+    load_between(b, north + begin, here + begin, end - begin, b->flow_z + here + begin,
+                 b->load + braid_count(b), b->next_z + here + begin);
 }
 
 static void move_row(Braid *b, double scale, int row)
 {
-    int side = b->side;
-    int64_t here = (int64_t)row * side, north = (int64_t)((row + side - 1) % side) * side;
-    int64_t south = (int64_t)((row + 1) % side) * side;
-    for (int c = 0; c < side; c++) {
-        int64_t i = here + c;
-        double in = load_between(b, north + c, i, 1, b->flow_z[i]) -
-                    load_between(b, i, south + c, 1, b->flow_z[south + c]);
-        in += c > 0 ? load_between(b, i - 1, i, 0, b->flow_x[i]) : 0.0;
-        in -= c + 1 < side ? load_between(b, i, i + 1, 0, b->flow_x[i + 1]) : 0.0;
-        b->bed[i] += scale * in;
+    int side = b->side, begin = b->span[row].begin, end = b->span[row].end;
+    int64_t here = (int64_t)row * side, south = (int64_t)((row + 1) % side) * side;
+    const float *x = b->next_x + here, *z = b->next_z + here, *zs = b->next_z + south;
+#pragma omp simd
+    for (int c = begin; c < end; c++) {
+        double in = (double)z[c] - (double)zs[c] + (double)x[c];
+        in -= c + 1 < side ? (double)x[c + 1] : 0.0;
+        b->bed[here + c] += scale * in;
+        b->ground[here + c] = (float)b->bed[here + c];
     }
 }
 
 void braid_move_bed(Braid *b, int threads)
 {
     double scale = braid_change(b) * b->mean / (double)braid_load_of((float)BRAID_REFERENCE);
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int row = 0; row < b->side; row++) {
-        move_row(b, scale, row);
+#pragma omp parallel num_threads(threads)
+    {
+#pragma omp for schedule(static)
+        for (int row = 0; row < b->side; row++) {
+            load_through_row(b, row);
+        }
+#pragma omp for schedule(static)
+        for (int row = 0; row < b->side; row++) {
+            move_row(b, scale, row);
+        }
     }
-    braid_take_ground(b);
 }

@@ -3,18 +3,14 @@
 
 #define DAMPING 0.85f // share of a flow's own inertia; the rest is its neighbours'
 
-void braid_take_ground(Braid *b)
-{
-    for (int64_t i = 0; i < braid_count(b); i++) {
-        b->ground[i] = (float)b->bed[i];
-    }
-}
-
 float braid_step_limit(const Braid *b)
 {
     float deepest = (float)b->mean;
-    for (int64_t i = 0; i < braid_count(b); i++) {
-        deepest = b->depth[i] > deepest ? b->depth[i] : deepest;
+    for (int row = 0; row < b->side; row++) {
+        const float *depth = b->depth + (int64_t)row * b->side;
+        for (int c = b->span[row].begin; c < b->span[row].end; c++) {
+            deepest = depth[c] > deepest ? depth[c] : deepest;
+        }
     }
     return 0.45f * (float)b->cell / sqrtf((float)BRAID_GRAVITY * deepest);
 }
@@ -49,16 +45,17 @@ static void flow_row(Braid *b, const FlowStep *s, int row)
     const float *xn = b->flow_x + north, *zn = b->flow_z + north, *zs = b->flow_z + south;
     float *to_x = b->next_x + here, *to_z = b->next_z + here;
     float side_share = 0.5f * (1.0f - DAMPING);
+    int begin = b->span[row].begin, end = b->span[row].end;
     to_x[0] = 0.0f;
 #pragma omp simd
-    for (int c = 1; c < side; c++) {
+    for (int c = begin > 1 ? begin : 1; c < end; c++) {
         float after = c + 1 < side ? x[c + 1] : 0.0f;
         float mean = DAMPING * x[c] + side_share * (x[c - 1] + after);
         float across = 0.25f * (z[c - 1] + z[c] + zs[c - 1] + zs[c]);
         to_x[c] = flow_after(s, mean, across, g[c - 1], g[c - 1] + h[c - 1], g[c], g[c] + h[c]);
     }
 #pragma omp simd
-    for (int c = 0; c < side; c++) {
+    for (int c = begin; c < end; c++) {
         float mean = DAMPING * z[c] + side_share * (zn[c] + zs[c]);
         float xe = c + 1 < side ? x[c + 1] + xn[c + 1] : 0.0f, across = 0.25f * (x[c] + xn[c] + xe);
         float bed = gn[c] + s->drop;
@@ -77,8 +74,9 @@ static void limit_row(Braid *b, float scale, int row)
     int side = b->side;
     int64_t here = (int64_t)row * side, south = (int64_t)((row + 1) % side) * side;
     const float *x = b->next_x + here, *z = b->next_z + here, *zs = b->next_z + south;
+    int begin = b->span[row].begin, end = b->span[row].end;
 #pragma omp simd
-    for (int c = 0; c < side; c++) {
+    for (int c = begin; c < end; c++) {
         float east = c + 1 < side ? x[c + 1] : 0.0f;
         float out = positive(-x[c]) + positive(east) + positive(-z[c]) + positive(zs[c]);
         out *= scale;
@@ -100,8 +98,9 @@ static void fill_row(Braid *b, float scale, int row)
     const float *x = b->next_x + here, *z = b->next_z + here, *zs = b->next_z + south;
     const float *share = b->share + here, *sn = b->share + north, *ss = b->share + south;
     float *h = b->depth + here;
+    int begin = b->span[row].begin, end = b->span[row].end;
 #pragma omp simd
-    for (int c = 0; c < side; c++) {
+    for (int c = begin; c < end; c++) {
         float west = c > 0 ? given(x[c], share[c - 1], share[c]) : 0.0f;
         float east = c + 1 < side ? given(x[c + 1], share[c], share[c + 1]) : 0.0f;
         float in = west - east + given(z[c], sn[c], share[c]) - given(zs[c], share[c], ss[c]);
@@ -125,6 +124,7 @@ void braid_flow(Braid *b, float step, int threads)
                   .drop = (float)(b->slope * b->cell),
                   .dry = (float)(BRAID_DRY * b->mean)};
     float scale = step / (float)b->cell;
+    braid_widen(b);
 #pragma omp parallel num_threads(threads)
     {
 #pragma omp for schedule(static)
@@ -141,4 +141,7 @@ void braid_flow(Braid *b, float step, int threads)
         }
     }
     swap_flows(b);
+    for (int row = 0; row < b->side; row++) {
+        b->wet[row] = braid_wet_span(b, b->span[row], row);
+    }
 }

@@ -43,12 +43,20 @@ static inline float braid_load_of(float shear)
     return excess * sqrtf(excess);
 }
 
-// braid_flow.c: fills b->ground; the longest stable step, s; one step of the water.
-void braid_take_ground(Braid *b);
+// braid_span.c: fills b->ground and finds the water, after a change of bed, depth or flow from
+// outside.
+void braid_begin(Braid *b);
+// The columns of a row beyond which it is dry and at rest, among those of `among`.
+BraidSpan braid_wet_span(const Braid *b, BraidSpan among, int row);
+// Widens the spans to where the water can come in a step, and gravel in an update. They never
+// shrink, so what lies outside stays zero in all arrays of the flow and its load.
+void braid_widen(Braid *b);
+
+// braid_flow.c: the longest stable step, s; one step of the water.
 float braid_step_limit(const Braid *b);
 void braid_flow(Braid *b, float step, int threads);
 
-// braid_bed.c: fills shear and load of the flow; moves gravel for one update.
+// braid_bed.c: fills shear and load of the flow; moves this load for one update.
 void braid_find_load(Braid *b, int threads);
 void braid_move_bed(Braid *b, int threads);
 

@@ -104,7 +104,8 @@ static Landscape *wear_sides(const Terrain *terrain, const Run *run, Error *e)
 {
     enum { STEPS = 80 };
     TerrainParams p = terrain_params_resolve(terrain->params);
-    Landscape *land = landscape_new(SIDE_CELLS, (double)p.size, NULL, e);
+    int cells = p.evolution.cells < SIDE_CELLS ? p.evolution.cells : SIDE_CELLS;
+    Landscape *land = landscape_new(cells, (double)p.size, NULL, e);
     if (!land) {
         return NULL;
     }

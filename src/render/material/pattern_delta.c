@@ -27,8 +27,8 @@ static Ground reeds(const SurfacePoint *point, float broad)
 {
     PatternOctaves beds = pattern_octaves(point, 90.0f, 7, 0.62f, 1.0f, SEED_SWARD + 30);
     PatternOctaves tufts = pattern_octaves(point, 3.0f, 4, 0.7f, 0.8f, SEED_SWARD + 39);
-    Vec3 green = {0.062f, 0.076f, 0.026f}, fresh = {0.086f, 0.096f, 0.034f};
-    Vec3 straw = {0.132f, 0.108f, 0.056f};
+    Vec3 green = {0.066f, 0.076f, 0.032f}, fresh = {0.102f, 0.106f, 0.046f};
+    Vec3 straw = {0.205f, 0.165f, 0.092f};
     Ground g = {.color = vec3_lerp(green, fresh, smoothstepf(-0.3f, 0.3f, beds.value))};
     g.color = vec3_lerp(g.color, straw, 0.8f * smoothstepf(0.15f, 0.6f, beds.value + 0.5f * broad));
     g.color = vec3_scale(g.color, 1.0f + 0.20f * clampf(tufts.value, -1.3f, 1.3f));
@@ -40,7 +40,7 @@ static Ground marsh(const Material *m, const SurfacePoint *point, float damp, fl
 {
     PatternOctaves sward = pattern_octaves(point, 24.0f, 6, 0.66f, 1.0f, SEED_SWARD);
     PatternOctaves tufts = pattern_octaves(point, 2.0f, 4, 0.7f, 0.8f, SEED_SWARD + 9);
-    Vec3 olive = {0.108f, 0.096f, 0.038f}, brown = {0.110f, 0.082f, 0.046f};
+    Vec3 olive = {0.142f, 0.124f, 0.058f}, brown = {0.138f, 0.096f, 0.058f};
     float t = 0.6f * sward.value + 1.1f * broad;
     Ground g = {.color = vec3_lerp(m->color2, olive, smoothstepf(-0.3f, 0.4f, t))};
     g.color = vec3_lerp(g.color, brown, 0.7f * smoothstepf(0.3f, 0.8f, t + 0.5f * damp - 0.25f));
