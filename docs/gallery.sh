@@ -324,6 +324,7 @@ still alps alps
 still tarn tarn
 still alpine-valley alpine-valley
 still volcano volcano
+still waterfall waterfall
 still hills hills
 still valley-fog valley-fog
 still braided braided

@@ -23,6 +23,7 @@ void part_clear(Part *part)
     free(part->season);
     height_field_free(part->land);
     spray_free(part->spray);
+    spray_free(part->water);
 }
 
 bool geometry_add(Geometry *geometry, Part part, Error *e)
@@ -106,6 +107,7 @@ GeometryCounts geometry_counts(const Geometry *geometry)
         }
         counts.bytes += part->land ? height_field_bytes(part->land) : 0;
         counts.bytes += part->spray ? part->spray->count * (int64_t)sizeof(SprayParcel) : 0;
+        counts.bytes += part->water ? part->water->count * (int64_t)sizeof(SprayParcel) : 0;
         counts.instances += part->instance_count;
         counts.bytes += part->instance_count * (int64_t)sizeof(Transform);
     }

@@ -37,6 +37,7 @@ typedef struct Part {
     HeightField *land;   // owned; of a terrain whose maps are drawn: what the part shows, in the
                          // scene; NULL = none
     SprayParcels *spray; // owned; what it throws up; NULL = nothing
+    SprayParcels *water; // owned; falling water that air has made white; NULL = none
 } Part;
 
 typedef struct Geometry {

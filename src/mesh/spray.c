@@ -8,6 +8,18 @@
 
 #define WIDENING 0.25f // radius over way of a turbulent puff
 
+// An ellipsoid of revolution reaches along an axis as far as its half axes' parts along it
+// together.
+float spray_reach(const SprayParcel *parcel, int axis, float least)
+{
+    float radius = fmaxf(parcel->radius, least), drawn = vec3_length(parcel->drawn);
+    if (!(drawn > 0.0f)) {
+        return radius;
+    }
+    float part = vec3_axis(parcel->drawn, axis) / drawn, half = radius + drawn;
+    return sqrtf(radius * radius * (1.0f - part * part) + half * half * part * part);
+}
+
 bool spray_add(SprayParcels *spray, SprayParcel parcel, Error *e)
 {
     if (!memory_reserve(&spray->parcel, &spray->capacity, spray->count + 1, sizeof parcel, e)) {

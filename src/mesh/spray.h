@@ -9,17 +9,22 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// A ball of air, densest in its middle.
+// A ball of air, or one that is drawn out, densest in its middle.
 typedef struct SprayParcel {
     Vec3 center;   // m, in the scene
     float radius;  // m, > 0
     float content; // m^3 of the densest spray (density 1) that hold as many droplets
+    Vec3 drawn;    // m: by how much its ends lie farther out than a ball's, along this direction
 } SprayParcel;
 
 typedef struct SprayParcels {
     SprayParcel *parcel; // owned
     int64_t count, capacity;
 } SprayParcels;
+
+// m: how far a parcel reaches from its centre along x, y or z (axis 0, 1 or 2), with its radius no
+// less than `least`.
+float spray_reach(const SprayParcel *parcel, int axis, float least);
 
 // Adds a parcel. ERROR_MEMORY.
 bool spray_add(SprayParcels *spray, SprayParcel parcel, Error *e);

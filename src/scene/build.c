@@ -319,22 +319,23 @@ static Land find_land(const Scene *scene, const OwnSpace *own, GroundObject *gro
     return (Land){0};
 }
 
-// Is there fog, or is there spray, over the object of that name?
-static bool has_cloud_over(const Scene *scene, const char *name, bool spray)
+// Is there a cloud of the kind over the object of that name? of: what of spray it shows.
+static bool has_cloud_over(const Scene *scene, const char *name, CloudKind kind, SprayOf of)
 {
     for (int i = 0; i < scene->cloud_count; i++) {
         const Cloud *cloud = &scene->clouds[i];
         bool over = cloud->over && strcmp(cloud->over, name) == 0;
-        if (over && (cloud->kind == CLOUD_SPRAY) == spray) {
+        if (over && cloud->kind == kind && cloud->of == of) {
             return true;
         }
     }
     return false;
 }
 
-bool scene_keeps_spray(const Scene *scene, int index)
+bool scene_keeps_spray(const Scene *scene, int index, SprayOf of)
 {
-    return has_cloud_over(scene->whole ? scene->whole : scene, scene->objects[index].name, true);
+    const char *name = scene->objects[index].name;
+    return has_cloud_over(scene->whole ? scene->whole : scene, name, CLOUD_SPRAY, of);
 }
 
 bool scene_keeps_land(const Scene *scene, int index)
@@ -346,7 +347,7 @@ bool scene_keeps_land(const Scene *scene, int index)
             return true;
         }
     }
-    if (has_cloud_over(scene, name, false)) {
+    if (has_cloud_over(scene, name, CLOUD_FOG, SPRAY_MIST)) {
         return true;
     }
     for (int i = 0; i < scene->object_count; i++) {
@@ -376,7 +377,8 @@ static bool add_geometry(World *world, const Making *m, Error *e)
                        .further = further,
                        .object = m->index,
                        .keep_land = scene_keeps_land(m->scene, m->index),
-                       .keep_spray = scene_keeps_spray(m->scene, m->index),
+                       .keep_spray = scene_keeps_spray(m->scene, m->index, SPRAY_MIST),
+                       .keep_water = scene_keeps_spray(m->scene, m->index, SPRAY_WATER),
                        .around = {.eye = &world->camera.position,
                                   .material = world->material,
                                   .flood = m->kind->reads_water ? &water.flood : NULL,

@@ -7,6 +7,7 @@
 #include "mesh/geometry.h"
 #include "objects/common/recipe.h"
 #include "outtree/out_tree.h"
+#include "render/cloud/cloud.h"
 #include "scene/scene.h"
 
 typedef struct World World;
@@ -65,8 +66,8 @@ bool scene_place_object(World *world, const Scene *scene, int index, Shared shar
 // it or for fog in its valleys?
 bool scene_keeps_land(const Scene *scene, int index);
 
-// Does a cloud show the spray that the object throws up?
-bool scene_keeps_spray(const Scene *scene, int index);
+// Does a cloud show the spray that the object throws up, or its falling water?
+bool scene_keeps_spray(const Scene *scene, int index, SprayOf of);
 
 // Places the objects for which `placed` is false (NULL = all) in an order in which obstacles come
 // first, then puts the world's parts into the order of the scene's objects. growths: see Shared.

@@ -82,6 +82,12 @@ static bool same_surroundings(const Scene *a, const Scene *b)
     return key_equal(table_find(&scene_table, "materials"), a, b);
 }
 
+static bool same_spray(const Scene *a, const Scene *b, int index)
+{
+    return scene_keeps_spray(a, index, SPRAY_MIST) == scene_keeps_spray(b, index, SPRAY_MIST) &&
+           scene_keeps_spray(a, index, SPRAY_WATER) == scene_keeps_spray(b, index, SPRAY_WATER);
+}
+
 // Can the object's parts be kept?
 static bool object_fits(const SceneBuilder *builder, const Scene *scene, int index, bool alike)
 {
@@ -90,8 +96,7 @@ static bool object_fits(const SceneBuilder *builder, const Scene *scene, int ind
     bool reads_scene = kind->reads_scene || scene_object_has_neighbours(&scene->objects[index]);
     return same_object(old, scene, index) &&
            scene_keeps_land(old, index) == scene_keeps_land(scene, index) &&
-           scene_keeps_spray(old, index) == scene_keeps_spray(scene, index) &&
-           (alike || !reads_scene) &&
+           same_spray(old, scene, index) && (alike || !reads_scene) &&
            (!kind->reads_water || scene_flood_hash(old) == scene_flood_hash(scene)) &&
            (!kind->grow || old->grow_to == scene->grow_to);
 }

@@ -58,9 +58,50 @@ static bool gather_spray(Cloud *cloud, const Geometry *geometry, int object, Err
     return done;
 }
 
+// Gives a copy of the part's falling water to the cloud of that number.
+static bool take_water(World *world, int index, const Part *part, Error *e)
+{
+    SprayParcels *water = memory_alloc_zero(1, sizeof *water, e);
+    world->cloud[index].spray = water;
+    return water && spray_join(water, part->water, e);
+}
+
+// The cloud takes the falling water of one part, and a further one that of each further part: falls
+// lie far apart, and each needs a fine grid.
+static bool gather_water(World *world, int index, int object, Error *e)
+{
+    int64_t capacity = world->cloud_count;
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        const Part *part = &world->geometry.part[i];
+        if (part->object != object || !part->water || part->water->count == 0) {
+            continue;
+        }
+        int at = index;
+        if (world->cloud[index].spray) {
+            at = world->cloud_count;
+            if (!memory_reserve(&world->cloud, &capacity, at + 1, sizeof *world->cloud, e)) {
+                return false;
+            }
+            world->cloud[at] = world->cloud[index];
+            world->cloud_count++;
+        }
+        if (!take_water(world, at, part, e)) {
+            return false;
+        }
+    }
+    if (!world->cloud[index].spray) {
+        error_set(e, ERROR_INPUT, "object '%s' has no falling water: it has no waterfall",
+                  world->cloud[index].over);
+    }
+    return world->cloud[index].spray;
+}
+
 static bool raise_spray(World *world, int index, int object, Error *e)
 {
     Cloud *cloud = &world->cloud[index];
+    if (cloud->of == SPRAY_WATER) {
+        return gather_water(world, index, object, e) || error_key(e, "clouds.%d.over", index);
+    }
     if (!gather_spray(cloud, &world->geometry, object, e)) {
         return error_key(e, "clouds.%d", index);
     }
@@ -76,7 +117,7 @@ static bool raise_spray(World *world, int index, int object, Error *e)
 
 bool scene_ground_clouds(World *world, const Scene *scene, const Run *run, Error *e)
 {
-    for (int i = 0; i < world->cloud_count; i++) {
+    for (int i = 0; i < scene->cloud_count; i++) { // falling water adds further ones
         Cloud *cloud = &world->cloud[i];
         int object = cloud->over ? scene_find_object(scene, cloud->over) : -1;
         if (object < 0) { // none is asked for, or the scene is a part without the terrain

@@ -15,6 +15,8 @@ static const EnumName KINDS[] = {{"cumulus", CLOUD_CUMULUS},
                                  {"spray", CLOUD_SPRAY},
                                  {0}};
 
+static const EnumName SPRAY_OF[] = {{"mist", SPRAY_MIST}, {"water", SPRAY_WATER}, {0}};
+
 static const Key CLOUD_KEYS[] = {
     {KEY_OF(Cloud, kind, "kind", KEY_ENUM), .names = KINDS,
      .doc = "cumulus: heaps of all sizes and ages on one flat base, all over the land; stratus: a "
@@ -74,6 +76,12 @@ static const Key CLOUD_KEYS[] = {
             "ones: its thickness counts from a level that follows the low ground, and base does "
             "not count. Beyond the terrain's rim it goes on as over the terrain's copies. Default: "
             "fog of one level."},
+    {KEY_OF(Cloud, of, "of", KEY_ENUM), .names = SPRAY_OF, .kinds = BIT(CLOUD_SPRAY),
+     .doc = "mist: drops that air carries off from the foot of a fall, from its strands or from "
+            "surf; water: the falling water itself, clots of drops and air with tails that "
+            "lengthen as they fall, in place of the strands of a terrain's waterfalls below their "
+            "lips. It is as much water as the river brings, in drops of 6 mm; extinction is that "
+            "of mist as dense as at a foot, and falling water is many times as dense."},
     {KEY_OF(Cloud, pool, "pool", KEY_FLOAT), .kinds = BIT(CLOUD_FOG), .flags = KEY_ABOVE,
      .high = 20000, .unit = "m",
      .doc = "With over: distance within which the lowest land is the ground of the fog. About "

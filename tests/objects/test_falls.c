@@ -8,6 +8,7 @@
 #include "land/height_mesh.h"
 #include "mesh/geometry.h"
 #include "objects/terrain/spray.h"
+#include "objects/terrain/white_water.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -366,7 +367,8 @@ static void a_ledge_throws_water_out_again(void **state)
     drop_valley(&v);
 }
 
-static Geometry fall_parts(const Valley *v, int threads)
+// water: strands become white water below the lip.
+static Geometry fall_parts(const Valley *v, bool water, int threads)
 {
     Error e = {0};
     Run run = run_default();
@@ -374,8 +376,11 @@ static Geometry fall_parts(const Valley *v, int threads)
     Recipe recipe = {.seed = 5, .label = "land", .run = &run};
     Geometry geometry = {0};
     static const int material[4] = {0, 1, 2, 3};
-    Placing placing = {
-        .recipe = &recipe, .geometry = &geometry, .material = material, .keep_spray = true};
+    Placing placing = {.recipe = &recipe,
+                       .geometry = &geometry,
+                       .material = material,
+                       .keep_spray = true,
+                       .keep_water = water};
     assert_true(terrain_add_falls(&v->terrain, v->field, &placing, &e));
     return geometry;
 }
@@ -388,7 +393,7 @@ static int64_t make_wide_fall(Valley *v, Geometry *geometry)
     lay(v);
     int64_t lip = -1;
     assert_int_equal(count_falls(v, &lip), 1);
-    *geometry = fall_parts(v, 1);
+    *geometry = fall_parts(v, false, 1);
     return lip;
 }
 
@@ -479,16 +484,54 @@ static void falls_carry_their_spray(void **state)
     drop_valley(&v);
 }
 
+// White water is as much as the river brings while it falls: its discharge times the time from
+// where it breaks up, at a tenth of the height, to the pool. Strands then end where it begins.
+static void white_water_is_what_the_river_brings(void **state)
+{
+    (void)state;
+    Valley v;
+    Geometry plain;
+    int64_t lip = make_wide_fall(&v, &plain);
+    Geometry geometry = fall_parts(&v, true, 1);
+    const SprayParcels *water = geometry.part[0].water;
+    assert_null(plain.part[0].water);
+    float pool = v.terrain.water->position[v.terrain.water->parent[lip]].y;
+    double contents = 0.0, heights = 0.0;
+    for (int64_t i = 0; i < water->count; i++) {
+        const SprayParcel *parcel = &water->parcel[i];
+        assert_true(parcel->content >= 0.0f && parcel->radius > 0.0f);
+        assert_true(vec3_length(parcel->drawn) < 1.5f && fabsf(parcel->center.x) < HALF + 2.0f);
+        contents += (double)parcel->content;
+        heights += (double)(parcel->content * (parcel->center.y - pool));
+    }
+    double seconds = sqrt(2.0 * 12.0 / 9.81) * (1.0 - sqrt(0.1));
+    double wanted = (double)v.terrain.flow[lip].discharge * seconds;
+    double found = contents / (double)white_water_content();
+    assert_true(found > 0.9 * wanted && found < 1.2 * wanted); // rock slows some of it down
+    assert_true(heights / contents > 3.0 && heights / contents < 8.0);
+    const Mesh *mesh = geometry.part[0].mesh;
+    assert_true(mesh->vertex_count < plain.part[0].mesh->vertex_count);
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        assert_true(mesh->position[i].y > pool + 0.5f * 12.0f);
+    }
+    geometry_clear(&geometry);
+    geometry_clear(&plain);
+    drop_valley(&v);
+}
+
 static void falls_have_the_same_bits_for_any_threads(void **state)
 {
     (void)state;
     Valley v = make_valley(stepped);
     lay(&v);
-    Geometry one = fall_parts(&v, 1), four = fall_parts(&v, 4);
+    Geometry one = fall_parts(&v, true, 1), four = fall_parts(&v, true, 4);
     const Mesh *a = one.part[0].mesh, *b = four.part[0].mesh;
     assert_int_equal(a->vertex_count, b->vertex_count);
     assert_memory_equal(a->position, b->position, sizeof(Vec3) * (size_t)a->vertex_count);
     assert_memory_equal(a->foam, b->foam, sizeof(float) * (size_t)a->vertex_count);
+    const SprayParcels *first = one.part[0].water, *second = four.part[0].water;
+    assert_int_equal(first->count, second->count);
+    assert_memory_equal(first->parcel, second->parcel, sizeof(SprayParcel) * (size_t)first->count);
     geometry_clear(&one);
     geometry_clear(&four);
     drop_valley(&v);
@@ -574,6 +617,7 @@ int main(void)
         cmocka_unit_test(strands_fall_into_the_pool),
         cmocka_unit_test(feet_throw_up_spray),
         cmocka_unit_test(falls_carry_their_spray),
+        cmocka_unit_test(white_water_is_what_the_river_brings),
         cmocka_unit_test(falls_have_the_same_bits_for_any_threads),
         cmocka_unit_test(water_depth_is_the_level_less_the_bed),
         cmocka_unit_test(a_lake_has_one_level),

@@ -17,7 +17,11 @@ static SprayParcels *many(int count)
         Vec3 center = vec3_scale(random_direction(key), 12.0f * random_unit(random_key(key, 1)));
         float radius = random_range(random_key(key, 2), 0.02f, 3.0f);
         float content = random_range(random_key(key, 3), 0.1f, 2.0f);
-        assert_true(spray_add(spray, (SprayParcel){center, radius, content}, NULL));
+        SprayParcel parcel = {.center = center, .radius = radius, .content = content};
+        if (i % 2 == 1) {
+            parcel.drawn = vec3_scale(random_direction(random_key(key, 4)), 2.0f * radius);
+        }
+        assert_true(spray_add(spray, parcel, NULL));
     }
     return spray;
 }
@@ -59,30 +63,47 @@ static CloudSet *cloud_of(SprayParcels *spray, float extinction)
     return clouds;
 }
 
-// Through the middle of a ball of density k (1 - r^2 / R^2)^3, which holds 64 pi k R^3 / 315: the
-// depth is k R 32 / 35.
-static void a_ray_through_a_parcel_loses_its_share(void **state)
+// What passes along a ray through (3, 40, -7), in the mean.
+static double passed_along(const CloudSet *clouds, Vec3 direction)
 {
-    (void)state;
-    const float radius = 2.0f, content = 5.0f, extinction = 0.2f;
-    SprayParcels one = {0};
-    assert_true(spray_add(&one, (SprayParcel){vec3(3, 40, -7), radius, content}, NULL));
-    CloudSet *clouds = cloud_of(&one, extinction);
-    double middle = 315.0 * (double)content / (64.0 * 3.14159265358979 * pow((double)radius, 3.0));
-    double wanted = (double)extinction * middle * (double)radius * 32.0 / 35.0;
-    CloudRay ray = {vec3(-20, 40, -7), vec3(1, 0, 0), 100.0f, false};
+    CloudRay ray = {vec3_madd(vec3(3, 40, -7), -26.0f, direction), direction, 100.0f, false};
     enum { TRIALS = 20000 };
     double passed = 0.0;
     uint64_t key = 5;
     for (int i = 0; i < TRIALS; i++) {
         passed += (double)clouds_pass(clouds, &ray, 1.0f, &key) / TRIALS;
     }
-    assert_true(fabs(passed - exp(-wanted)) <= 0.02);
-    assert_true(fabs((double)clouds_extinction(clouds, vec3(3, 40, -7)) -
-                     (double)extinction * middle) <= 0.05 * (double)extinction * middle);
-    assert_true(clouds_extinction(clouds, vec3(3, 43, -7)) == 0.0f);
-    clouds_free(clouds);
-    free(one.parcel);
+    return passed;
+}
+
+// Through the middle of a ball of density k (1 - r^2 / R^2)^3, which holds 64 pi k R^3 / 315: the
+// depth is k R 32 / 35. Drawn out by L, it holds (R + L) / R times as much, and is as much deeper
+// along its axis alone.
+static void a_ray_through_a_parcel_loses_its_share(void **state)
+{
+    (void)state;
+    const float radius = 2.0f, content = 5.0f, extinction = 0.2f;
+    const Vec3 axis = {0.6f, 0.0f, 0.8f}, beside = {0.0f, 1.0f, 0.0f};
+    for (int k = 0; k < 2; k++) {
+        float drawn = 3.0f * (float)k;
+        SprayParcels one = {0};
+        SprayParcel parcel = {vec3(3, 40, -7), radius, content, vec3_scale(axis, drawn)};
+        assert_true(spray_add(&one, parcel, NULL));
+        CloudSet *clouds = cloud_of(&one, extinction);
+        double size = (double)(radius * radius * (radius + drawn));
+        double middle = 315.0 * (double)content / (64.0 * 3.14159265358979 * size);
+        double across = (double)extinction * middle * (double)radius * 32.0 / 35.0;
+        double along = across * (double)((radius + drawn) / radius);
+        assert_true(fabs(passed_along(clouds, beside) - exp(-across)) <= 0.02);
+        assert_true(fabs(passed_along(clouds, axis) - exp(-along)) <= 0.02);
+        double found = (double)clouds_extinction(clouds, vec3(3, 40, -7));
+        assert_true(fabs(found / ((double)extinction * middle) - 1.0) <= 0.05);
+        assert_true(clouds_extinction(clouds, vec3(3, 43, -7)) == 0.0f);
+        Vec3 end = vec3_madd(vec3(3, 40, -7), 1.4f * radius + 0.5f * drawn, axis);
+        assert_true((clouds_extinction(clouds, end) > 0.0f) == (k == 1));
+        clouds_free(clouds);
+        free(one.parcel);
+    }
 }
 
 static void without_parcels_light_passes(void **state)

@@ -88,28 +88,42 @@ static void spray_needs_falls(void **state)
     assert_int_equal(e.code, ERROR_INPUT);
     assert_non_null(strstr(e.message, "object 'land' throws up no spray"));
     scene_free(scene);
+    scene = fixture_read(*state, "clouds: [{kind: spray, of: water, over: land}]\n" LAND);
+    assert_null(scene_build(scene, &run, NULL, &e));
+    assert_int_equal(e.code, ERROR_INPUT);
+    assert_non_null(strstr(e.message, "object 'land' has no falling water"));
+    assert_string_equal(e.key, "clouds.0.over");
+    scene_free(scene);
 }
 
-// The cloud gathers what the parts of its object carry.
+// The cloud gathers what the parts of its object carry; of falling water each fall has a cloud.
 static void spray_is_that_of_the_falls(void **state)
 {
     Run run = run_default();
     Error e = {0};
     Scene *scene = fixture_read(
         *state, "seed: 5\n"
-                "clouds: [{kind: spray, over: land}]\n"
+                "clouds: [{kind: spray, of: water, over: land}, {kind: spray, over: land}]\n"
                 "objects: [{name: land, terrain: {size: 600, relief: 170, resolution: 512, "
                 "rivers: {count: 14, outlets: 1, side: south, gradient: 0.75, water: 0.01, "
-                "runoff: 16}, terraces: {count: 6, strength: 0.95, sheer: 1}}}]\n");
+                "runoff: 16}, terraces: {count: 6, strength: 0.95, sheer: 1}, "
+                "noise: {wavelength: 0.06, amplitude: 0.12}}}]\n");
     World *world = scene_build(scene, &run, NULL, &e);
     assert_non_null(world);
-    int64_t parcels = 0;
+    int64_t parcels = 0, falls = 0;
     for (int64_t i = 0; i < world->geometry.count; i++) {
         const SprayParcels *spray = world->geometry.part[i].spray;
         parcels += spray ? spray->count : 0;
+        falls += world->geometry.part[i].water != NULL;
     }
     assert_true(parcels > 0);
-    assert_int_equal(world->cloud[0].spray->count, parcels);
+    assert_int_equal(world->cloud[1].spray->count, parcels);
+    assert_true(falls > 1);
+    assert_int_equal(world->cloud_count, 1 + falls);
+    for (int i = 0; i < world->cloud_count; i++) {
+        assert_true(i == 1 ||
+                    (world->cloud[i].of == SPRAY_WATER && world->cloud[i].spray->count > 0));
+    }
     world_free(world);
     scene_free(scene);
 }

@@ -58,6 +58,7 @@ typedef struct Placing {
     int object;          // index in the scene
     bool keep_land;      // maps of the land will be drawn: its heights stay with its first part
     bool keep_spray;     // a cloud shows the spray: it stays with the parts that throw it up
+    bool keep_water;     // the same of falling water that is white
     Surroundings around;
 } Placing;
 

@@ -95,7 +95,7 @@ static void visit_nearest(void *user, const CrackSegment *segment)
 
 bool crack_field_nearest(const CrackField *field, Vec3 p, int32_t but, CrackContact *contact)
 {
-    contact->distance = field->cell / 1.3f;
+    *contact = (CrackContact){.distance = field->cell / 1.3f};
     NearestVisit visit = {.p = p, .but = but, .contact = contact};
     visit_near(field, p, visit_nearest, &visit);
     return visit.found;

@@ -95,7 +95,7 @@ static float depth_at(const Sheet *sheet, int32_t crack, Vec3 p, float left)
 
 static bool reserve(Sheet *sheet, int64_t corners, Error *e)
 {
-    if (corners <= sheet->corners) {
+    if (sheet->position && corners <= sheet->corners) {
         return true;
     }
     int64_t capacity[5] = {sheet->corners, sheet->corners, sheet->corners, sheet->corners,

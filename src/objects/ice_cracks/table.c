@@ -40,8 +40,7 @@ static const Key CRACK_KEYS[] = {
             "clear."},
     {KEY_OF(IceCracksParams, grain, "grain", KEY_FLOAT), .high = 1e3, .unit = "m",
      .doc = "Size of the finest structure of the faces; 0 = a hundredth of the spacing. At least "
-            "0.0001 "
-            "of the depth and the spacing is used."},
+            "0.0001 of the depth and the spacing is used."},
     {0},
 };
 

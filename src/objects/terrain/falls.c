@@ -11,6 +11,7 @@
 #include "land/height_mesh.h"
 #include "objects/terrain/internal.h"
 #include "objects/terrain/spray.h"
+#include "objects/terrain/white_water.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -104,6 +105,7 @@ typedef struct FallMesher {
     Vec3 way, across;
     float half, speed, cover; // cover: how closely strands stand together at the foot, 0..1
     int columns;              // strands of a layer
+    bool breaks;              // below the lip its strands become white water
     Mesh *mesh;
     int64_t vertices, faces;
 } FallMesher;
@@ -139,7 +141,8 @@ static float tongue(const FallMesher *f, float side)
     return clampf(1.0f + 1.5f * broad + 1.1f * narrow, 0.0f, 2.2f);
 }
 
-static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS])
+// *step: s between its places.
+static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS], float *step)
 {
     float side = strand_side(f, strand);
     float fast = 1.0f - 0.35f * side * side; // banks hold the water back
@@ -155,6 +158,7 @@ static int strand_path(const FallMesher *f, int strand, Vec3 place[STEPS])
                      .level = f->level,
                      .film = 0.2f * terrain_bed_depth(f->half, f->half),
                      .step = sqrtf(2.0f * height / GRAVITY) / (0.6f * STEPS)};
+    *step = path.step;
     return path.step > 0.0f ? terrain_fall_path(&path, start, velocity, place, STEPS) : 0;
 }
 
@@ -169,18 +173,24 @@ static float clots(const FallMesher *f, int strand, float share)
     return clampf(1.0f + lerpf(3.2f, 1.6f, f->cover) * apart * noise, 0.0f, 2.5f);
 }
 
+// Width of a strand, relative to the mean.
+static float strand_width(const FallMesher *f, int strand)
+{
+    float wide = number_of(f, strand, NUMBER_WIDTH);
+    return lerpf(0.25f, 1.9f, wide * wide) * tongue(f, strand_side(f, strand));
+}
+
 // Half the width of a strand where it has fallen by this share: whole at the lip, torn below.
 static float strand_half(const FallMesher *f, int strand, float share)
 {
     float spacing = 2.0f * f->half / (float)f->columns;
     float from = strand < f->columns ? 0.0f : 0.75f * number_of(f, strand, NUMBER_START);
     float torn = lerpf(1.4f, lerpf(0.25f, 0.65f, f->cover), smoothstepf(0.0f, 0.6f, share));
-    float wide = number_of(f, strand, NUMBER_WIDTH);
-    float own = lerpf(0.25f, 1.9f, wide * wide);
-    own *= tongue(f, strand_side(f, strand));
+    float own = strand_width(f, strand);
     float grown = smoothstepf(from, from + 0.12f, share + (strand < f->columns ? 0.12f : 0.0f));
     own = fminf(own * clots(f, strand, share), 4.2f); // no wider than the widest whole one
-    return 0.5f * spacing * torn * own * grown;       // at most about 1.5 spacings
+    grown *= f->breaks ? 1.0f - white_water_share(share) : 1.0f;
+    return 0.5f * spacing * torn * own * grown; // at most about 1.5 spacings
 }
 
 static void add_strand_row(FallMesher *f, Vec3 p, Vec3 along, float half, float foam)
@@ -199,7 +209,8 @@ static void add_strand_row(FallMesher *f, Vec3 p, Vec3 along, float half, float 
 static void add_strand(FallMesher *f, int strand)
 {
     Vec3 place[STEPS];
-    int count = strand_path(f, strand, place);
+    float step;
+    int count = strand_path(f, strand, place, &step);
     if (count < 2) {
         return;
     }
@@ -210,6 +221,9 @@ static void add_strand(FallMesher *f, int strand)
         int k = (int)at < count - 2 ? (int)at : count - 2;
         Vec3 p = vec3_lerp(place[k], place[k + 1], at - (float)k);
         float share = (place[0].y - p.y) / fmaxf(place[0].y - f->level, 1e-6f);
+        if (f->breaks && white_water_share(share) >= 1.0f) {
+            break;
+        }
         float foam = lerpf(fmaxf(lip, 0.35f), white, smoothstepf(0.0f, 0.12f, share));
         foam = lerpf(foam, 1.0f, smoothstepf(0.6f, 1.0f, share));
         add_strand_row(f, p, vec3_sub(place[k + 1], place[k]), strand_half(f, strand, share), foam);
@@ -264,6 +278,15 @@ static Mesh *fall_mesh(FallMesher *f, const int32_t *main, Error *e)
     return f->mesh;
 }
 
+static int strand_in_scene(const FallMesher *f, int strand, Vec3 place[STEPS], float *step)
+{
+    int count = strand_path(f, strand, place, step);
+    for (int i = 0; i < count; i++) {
+        place[i] = vec3_add(place[i], f->terrain->params->position);
+    }
+    return count;
+}
+
 // What it throws up, in the scene.
 static SprayParcels *fall_spray(const FallMesher *f, Error *e)
 {
@@ -278,10 +301,7 @@ static SprayParcels *fall_spray(const FallMesher *f, Error *e)
     bool done = spray;
     for (int strand = 0; done && strand < fall.strands; strand++) {
         Vec3 place[STEPS];
-        int count = strand_path(f, strand, place);
-        for (int i = 0; i < count; i++) {
-            place[i] = vec3_add(place[i], f->terrain->params->position);
-        }
+        int count = strand_in_scene(f, strand, place, &(float){0});
         done = count < 2 || terrain_spray_strand(&fall, strand, place, count, spray, e);
     }
     if (!done) {
@@ -289,6 +309,34 @@ static SprayParcels *fall_spray(const FallMesher *f, Error *e)
         return NULL;
     }
     return spray;
+}
+
+// Its white water, in the scene.
+static SprayParcels *fall_water(const FallMesher *f, Error *e)
+{
+    SprayParcels *water = memory_alloc_zero(1, sizeof *water, e);
+    int strands = f->columns * LAYERS;
+    WhiteWater white = {.across = f->across,
+                        .way = f->way,
+                        .spacing = 2.0f * f->half / (float)f->columns,
+                        .discharge = f->terrain->flow[f->lip].discharge,
+                        .key = random_key(f->terrain->water->id[f->lip], STRANDS + 3)};
+    bool done = water;
+    for (int strand = 0; done && strand < strands; strand++) {
+        Vec3 place[STEPS];
+        WhiteStrand part = {.number = strand,
+                            .side = f->half * strand_side(f, strand),
+                            .place = place,
+                            .width = strand_width(f, strand)};
+        part.count = strand_in_scene(f, strand, place, &part.step);
+        done = part.count < 2 || white_water_strand(&white, &part, water, e);
+    }
+    if (!done) {
+        spray_free(water);
+        return NULL;
+    }
+    white_water_settle(&white, water);
+    return water;
 }
 
 // So many that up to 400 falls take at most about 100 MB together.
@@ -315,10 +363,15 @@ bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const P
         if (terrain->drop[i] <= 0.0f || water->position[i].y <= lake) {
             continue;
         }
-        FallMesher f = {.terrain = terrain, .field = field, .lip = (int32_t)i, .columns = columns};
+        FallMesher f = {.terrain = terrain,
+                        .field = field,
+                        .lip = (int32_t)i,
+                        .columns = columns,
+                        .breaks = placing->keep_water};
         f.level = fmaxf(water->position[water->parent[i]].y, lake);
         Part part = {.mesh = fall_mesh(&f, main, e)};
-        if (part.mesh && placing->keep_spray && !(part.spray = fall_spray(&f, e))) {
+        if (part.mesh && ((placing->keep_spray && !(part.spray = fall_spray(&f, e))) ||
+                          (placing->keep_water && !(part.water = fall_water(&f, e))))) {
             part_free_meshes(&part);
         }
         done = placing_add(placing, part, TERRAIN_WATER, e);

@@ -91,17 +91,43 @@ static void set_rivers(const Plateau *p, Landscape *land, double time)
 
 // ---- the plateau
 
+// Two sets of joints cut the plateau, as everywhere where it was bent: in their crushed zones,
+// which are long and narrow, streams and faces get ahead, so that side canyons and alcoves follow
+// them.
+typedef struct JointSet {
+    float x, z; // unit: along the joints
+    uint64_t key;
+} JointSet;
+
+static JointSet joint_set(const Terrain *terrain, int number)
+{
+    uint64_t key = random_key(random_key(terrain->seed, STREAM_WEAKNESS), 1);
+    float turn = random_range(key, 0.0f, 3.1415927f) + 1.3f * (float)number;
+    JointSet set = {.key = random_key(key, (uint64_t)number + 1)};
+    exact_sincos(turn, &set.z, &set.x);
+    return set;
+}
+
+// Mean 0; high in crushed zones. Places in shares of the size.
+static float crushed(const JointSet *set, float x, float z)
+{
+    float along = 7.0f * (x * set->x + z * set->z), across = 30.0f * (z * set->x - x * set->z);
+    return sparse_noise_fractal(along, across, 3, 0.7f, 0.7f, set->key);
+}
+
 static void set_weakness(const Plateau *p, Landscape *land, const Run *run)
 {
     uint64_t key = random_key(p->terrain->seed, STREAM_WEAKNESS);
+    JointSet set[] = {joint_set(p->terrain, 0), joint_set(p->terrain, 1)};
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int row = 0; row < land->side; row++) {
         for (int column = 0; column < land->side; column++) {
             float x = (float)(land->corner + column * land->cell) / p->size;
             float z = (float)(land->corner + row * land->cell) / p->size;
             float n = sparse_noise_fractal(14.0f * x, 14.0f * z, 5, 0.7f, 0.0f, key);
+            float zone = fmaxf(crushed(&set[0], x, z), crushed(&set[1], x, z));
             land->weakness[(int64_t)row * land->side + column] =
-                clampf(1.0f + 0.45f * n, 0.25f, 2.0f);
+                clampf(0.85f + 0.3f * n + 0.35f * zone, 0.25f, 2.2f);
         }
     }
 }
@@ -271,9 +297,10 @@ Landscape *terrain_evolve_plateau(Terrain *terrain, const Run *run, Error *e)
 // Moves places, all of row z.
 static void move_to_joints(const Terrain *terrain, bool worn, float *x, float *z, int count)
 {
-    const float wavelength = 0.006f * terrain->params->size;
+    const float wavelength = (worn ? 0.009f : 0.006f) * terrain->params->size;
     uint64_t key = random_key(terrain->seed, STREAM_JOINTS);
-    float reach = (worn ? 0.13f : 0.05f) * wavelength;
+    // Places that move must not pass each other: rock would stand in needles where they do.
+    float reach = 0.05f * wavelength;
     float u[FORM_MOST_SAMPLES], v[FORM_MOST_SAMPLES], n[2][FORM_MOST_SAMPLES];
     for (int axis = 0; axis < 2; axis++) {
         for (int k = 0; k < count; k++) {

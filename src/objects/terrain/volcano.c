@@ -83,22 +83,6 @@ static void open_border(Landscape *land)
     }
 }
 
-// Tephra is cut easily, here more and there less.
-static void find_weakness(Volcano *v, const Landscape *land, const Run *run)
-{
-    uint64_t key = random_key(v->terrain->seed, STREAM_WEAKNESS);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
-    for (int row = 0; row < land->side; row++) {
-        for (int column = 0; column < land->side; column++) {
-            int64_t i = (int64_t)row * land->side + column;
-            float x = (float)((land->corner + column * land->cell) / v->relief);
-            float z = (float)((land->corner + row * land->cell) / v->relief);
-            float n = sparse_noise_fractal(5.0f * x, 5.0f * z, 5, 0.7f, 0.0f, key);
-            v->weakness[i] = clampf(1.0f + 0.25f * n, 0.4f, 1.8f);
-        }
-    }
-}
-
 // Lava is cut slowly, the more so the younger it is.
 static void set_weakness(const Volcano *v, Landscape *land)
 {
@@ -334,7 +318,7 @@ static Landscape *refine(Volcano *v, Landscape *land, const Run *run, Error *e)
                                  old.red[at + right + down]);
         }
         open_border(finer);
-        find_weakness(v, finer, run);
+        volcano_find_weakness(v, finer, run);
         set_weakness(v, finer);
     } else {
         landscape_free(finer);
@@ -366,7 +350,7 @@ Landscape *terrain_evolve_volcano(Terrain *terrain, const Run *run, Error *e)
     if (done) {
         lay_plain(&v, land);
         open_border(land);
-        find_weakness(&v, land, run);
+        volcano_find_weakness(&v, land, run);
         set_weakness(&v, land);
         done = grow(&v, land, run, e);
     }

@@ -39,6 +39,9 @@ typedef struct Away {
 } Away;
 Away volcano_away(const Landscape *land, const Vent *vent, int64_t i);
 
+// volcano_rock.c: fills v->weakness: what differs from place to place.
+void volcano_find_weakness(Volcano *v, const Landscape *land, const Run *run);
+
 // volcano_vent.c: tephra, craters, scoria cones, sector collapse, caldera.
 
 // A layer of tephra, `thick` m at the crater's rim.

@@ -17,6 +17,12 @@ typedef enum CloudKind {
     CLOUD_SPRAY    // what falls and breakers throw up
 } CloudKind;
 
+// What of spray a cloud shows.
+typedef enum SprayOf {
+    SPRAY_MIST, // the drops that air carries off
+    SPRAY_WATER // falling water itself, which air has made white
+} SprayOf;
+
 // The level on which the fog of a terrain lies, over a square: samples row by row, x first.
 typedef struct CloudFloor {
     int side;          // samples along x and z
@@ -39,6 +45,7 @@ typedef struct Cloud {
     float shelf;              // CLOUD_STORM: how far one overhangs, in shares of the size; 0 = none
     const char *over;    // CLOUD_FOG: terrain whose low ground it lies on; CLOUD_SPRAY: object that
                          // throws it up; NULL = none; borrowed
+    SprayOf of;          // CLOUD_SPRAY
     float pool;          // m: with over, radius within which the lowest land is its ground
     float drift;         // CLOUD_FOG, 0..1: how far the wind has drawn it out
     SprayParcels *spray; // CLOUD_SPRAY: owned; NULL = not known yet

@@ -1,4 +1,5 @@
-// A parcel's density is (1 - d^2 / R^2)^3 to its radius R: smooth, and nothing beyond.
+// A parcel's density is (1 - d^2 / R^2)^3 to its radius R: smooth, and nothing beyond. Of one that
+// is drawn out, distances along that direction are measured in shares of its longer half axis.
 #include "render/cloud/cloud_spray.h"
 
 #include "base/memory.h"
@@ -20,9 +21,11 @@ static Aabb box_of(const SprayParcels *spray, float least)
 {
     Aabb box = {vec3_splat(INFINITY), vec3_splat(-INFINITY)};
     for (int64_t i = 0; i < spray->count; i++) {
-        Vec3 reach = vec3_splat(fmaxf(spray->parcel[i].radius, least));
-        box.low = vec3_min(box.low, vec3_sub(spray->parcel[i].center, reach));
-        box.high = vec3_max(box.high, vec3_add(spray->parcel[i].center, reach));
+        const SprayParcel *parcel = &spray->parcel[i];
+        Vec3 reach = {spray_reach(parcel, 0, least), spray_reach(parcel, 1, least),
+                      spray_reach(parcel, 2, least)};
+        box.low = vec3_min(box.low, vec3_sub(parcel->center, reach));
+        box.high = vec3_max(box.high, vec3_add(parcel->center, reach));
     }
     return box;
 }
@@ -50,8 +53,12 @@ float cloud_spray_voxel(const SprayParcels *spray)
     voxel = fmaxf(voxel, fmaxf(size.x, fmaxf(size.y, size.z)) / MOST_ACROSS);
     double samples = 0.0; // about, if none overlap
     for (int64_t i = 0; i < spray->count; i++) {
-        double across = 2.0 * (double)(spray->parcel[i].radius / voxel) + SPARSE_SIDE;
-        samples += across * across * across;
+        double each = 1.0;
+        for (int axis = 0; axis < 3; axis++) {
+            float reach = spray_reach(&spray->parcel[i], axis, 0.0f);
+            each *= 2.0 * (double)(reach / voxel) + SPARSE_SIDE;
+        }
+        samples += each;
     }
     double all = (double)size.x * (double)size.y * (double)size.z / pow((double)voxel, 3.0);
     double most = fmin(samples, all) / MOST_SAMPLES;
@@ -61,7 +68,7 @@ float cloud_spray_voxel(const SprayParcels *spray)
 // The samples of a parcel along an axis.
 static void range_of(const Splat *s, const SprayParcel *parcel, int axis, int *first, int *last)
 {
-    float reach = fmaxf(parcel->radius, LEAST * s->voxel) / s->voxel;
+    float reach = spray_reach(parcel, axis, LEAST * s->voxel) / s->voxel;
     float at = (vec3_axis(parcel->center, axis) - vec3_axis(s->low, axis)) / s->voxel;
     *first = (int)ceilf(at - reach);
     *last = (int)floorf(at + reach);
@@ -91,10 +98,14 @@ static int32_t mark_blocks(const Splat *s, const SprayParcels *spray, const int 
 
 static float kernel(const Splat *s, const SprayParcel *parcel, int x, int y, int z)
 {
-    float reach = fmaxf(parcel->radius, LEAST * s->voxel);
+    float reach = fmaxf(parcel->radius, LEAST * s->voxel), drawn = vec3_length(parcel->drawn);
     Vec3 p = vec3_madd(s->low, s->voxel, vec3((float)x, (float)y, (float)z));
     Vec3 off = vec3_scale(vec3_sub(p, parcel->center), 1.0f / reach);
     float left = 1.0f - vec3_dot(off, off);
+    if (drawn > 0.0f) {
+        float along = vec3_dot(off, parcel->drawn) / drawn, share = reach / (reach + drawn);
+        left += along * along * (1.0f - share * share);
+    }
     return left > 0.0f ? left * left * left : 0.0f;
 }
 

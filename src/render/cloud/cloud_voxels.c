@@ -10,8 +10,11 @@
 
 #include <math.h>
 
-enum { ACROSS = CELL * 2 };      // samples along a cell's side; PARTS of them
-enum { SPRAY_BYTES = 60000000 }; // about, of some falls or a kilometre of surf
+enum { ACROSS = CELL * 2 }; // samples along a cell's side; PARTS of them
+enum {
+    SPRAY_BYTES = 60000000, // about, of some falls or a kilometre of surf
+    WATER_BYTES = 150000000 // about, of a fall's water
+};
 
 _Static_assert((int)PARTS == (int)ACROSS, "a part lies between samples");
 
@@ -197,7 +200,7 @@ bool cloud_voxels_new(CloudGrid *g, const Cloud *cloud, const Run *run, Error *e
 int64_t cloud_voxels_bytes(const Cloud *cloud)
 {
     if (cloud->kind == CLOUD_SPRAY) {
-        return SPRAY_BYTES;
+        return cloud->of == SPRAY_WATER ? WATER_BYTES : SPRAY_BYTES;
     }
     Run run = run_default();
     int64_t bytes = cloud->file ? sparse_volume_estimate(cloud->file, cloud->grid, &run) : 0;

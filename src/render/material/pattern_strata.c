@@ -4,6 +4,7 @@
 #include "base/strata.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_beds.h"
+#include "render/material/pattern_crags.h"
 #include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
 #include "render/material/pattern_shore.h"
@@ -39,24 +40,34 @@ static float scale_of(const Material *m)
     return m->pattern_scale > 0.0f ? m->pattern_scale : 36.0f;
 }
 
+// Joints cut faces into blocks, which stand out, break off and leave corners in shadow.
+static void break_face(const SurfacePoint *point, float size, float steep, Ground *g)
+{
+    CragsRock face = crags_level(point, size, 0.7f);
+    Crags crags = pattern_crags(point, &face);
+    float light = (1.0f + 0.14f * crags.tone) * (1.0f - 0.6f * crags.crevice);
+    g->color = vec3_scale(g->color, lerpf(1.0f, light, steep));
+    g->slope = vec3_madd(g->slope, 0.85f * steep, crags.slope);
+}
+
 static Ground rock(const Material *m, const SurfacePoint *point, float level, float steep)
 {
     float scale = scale_of(m), footprint = point->footprint;
     PatternOctaves rough = pattern_octaves(point, scale, 8, 0.55f, 1.2f, SEED_ROUGH);
-    PatternOctaves joints = pattern_octaves(point, 0.55f * scale, 6, 0.62f, 0.13f, SEED_STREAK);
-    PatternOctaves streaks = pattern_octaves(point, 1.4f * scale, 6, 0.62f, 0.09f, SEED_STREAK + 8);
+    PatternOctaves streaks = pattern_octaves(point, 1.4f * scale, 6, 0.62f, 0.16f, SEED_STREAK + 8);
     float bent = level + 0.02f * scale * rough.value;
     float tone = lamina_tone(point->strata, bent, footprint);
     Ground g = {.color = beds_mean_color(point->strata, level, footprint)};
-    g.color = vec3_scale(g.color, 0.78f + 0.44f * tone);
-    g.color = vec3_scale(g.color, clampf(1.0f + 0.18f * rough.value, 0.6f, 1.4f));
+    g.color = vec3_scale(g.color, 0.8f + 0.4f * tone);
+    g.color = vec3_scale(g.color, clampf(1.0f + 0.2f * rough.value, 0.6f, 1.4f));
     // Desert varnish runs down the faces.
-    float stain = steep * smoothstepf(0.05f, 0.55f, streaks.value);
-    g.color = vec3_lerp(g.color, vec3(0.12f, 0.075f, 0.055f), 0.42f * stain);
-    g.color = vec3_scale(g.color, 1.0f - 0.3f * steep * smoothstepf(0.25f, 0.7f, joints.value));
+    float stain = steep * smoothstepf(0.1f, 0.7f, streaks.value + 0.2f * rough.value);
+    g.color = vec3_lerp(g.color, vec3(0.12f, 0.075f, 0.055f), 0.36f * stain);
     g.slope = vec3_scale(rough.slope, 0.05f * scale);
-    g.slope = vec3_madd(g.slope, 0.055f * scale * steep, joints.slope);
-    g.slope.y += 1.6f * (tone - 0.5f);
+    g.slope.y += 1.1f * (tone - 0.5f);
+    if (steep > 0.0f) {
+        break_face(point, 0.5f * scale, steep, &g);
+    }
     return g;
 }
 

@@ -4,12 +4,13 @@
 #include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
 #include "render/material/pattern_shore.h"
+#include "render/material/pattern_slopes.h"
 
 // Noise that several kinds of ground share.
 typedef struct Fray {
     float broad, fine; // of hundreds of metres; of tens and less
     float both;
-    PatternOctaves chutes; // run down the slopes
+    PatternOctaves chutes; // run down the slopes; hollows are negative
 } Fray;
 
 // Ash and lapilli, in streaks down the slope; on steep ground the beds crop out.
@@ -26,24 +27,24 @@ static Ground tephra(const Material *m, const SurfacePoint *point, const Fray *f
     g.color = vec3_scale(g.color, 1.0f + 0.25f * clampf(grain.value, -1.3f, 1.3f));
     g.color = vec3_scale(g.color, lerpf(1.0f, 0.55f + 0.95f * bed, 0.7f * crops));
     g.slope = vec3_scale(grain.slope, 0.012f * scale);
-    g.slope = vec3_madd(g.slope, 0.03f * scale, f->chutes.slope);
+    g.slope = vec3_madd(g.slope, 0.02f * scale, f->chutes.slope);
     g.slope.y += crops * 0.8f * (bed - 0.5f);
     return g;
 }
 
-// Blocky lava: black when fresh; lichen and dust make it grey and brown.
+// Blocky lava, in heaps and pressure ridges: black when fresh; lichens and dust make it grey and
+// brown.
 static Ground lava(const Material *m, const SurfacePoint *point, const Fray *f, float scale,
                    float fresh)
 {
-    PatternOctaves blocks = pattern_octaves(point, 0.28f * scale, 8, 0.72f, 0.8f, 211);
-    PatternOctaves cracks = pattern_octaves(point, 0.09f * scale, 5, 0.65f, 0.6f, 217);
+    PatternOctaves heaps = pattern_octaves(point, 0.28f * scale, 6, 0.68f, 0.8f, 211);
     Vec3 old = {0.088f, 0.080f, 0.066f};
-    Ground g = {.color = vec3_lerp(old, m->color2, smoothstepf(0.1f, 0.75f, fresh))};
-    float shade = 1.0f + 0.28f * clampf(blocks.value, -1.3f, 1.3f) + 0.12f * f->broad;
-    shade -= 0.3f * smoothstepf(0.1f, 0.6f, cracks.value);
-    g.color = vec3_scale(g.color, clampf(shade, 0.35f, 1.6f));
-    g.slope = vec3_scale(blocks.slope, 0.075f * scale);
-    g.slope = vec3_madd(g.slope, 0.02f * scale, cracks.slope);
+    Vec3 color = vec3_lerp(old, m->color2, smoothstepf(0.1f, 0.75f, fresh));
+    Vec3 grey = vec3_add(vec3_scale(color, 1.25f), vec3(0.016f, 0.016f, 0.014f));
+    Ground g = slopes_talus(point, vec3_scale(color, 0.85f), grey, 0.9f * scale);
+    float shade = 1.0f + 0.25f * clampf(heaps.value, -1.3f, 1.3f) + 0.12f * f->broad;
+    g.color = vec3_scale(g.color, clampf(shade, 0.4f, 1.6f));
+    g.slope = vec3_madd(g.slope, 0.06f * scale, heaps.slope);
     return g;
 }
 
@@ -62,23 +63,25 @@ static Ground scoria(const SurfacePoint *point, const Fray *f, float scale, floa
 
 static Ground plants(const SurfacePoint *point, float scale, float height)
 {
-    PatternOctaves tufts = pattern_octaves(point, 0.16f * scale, 6, 0.62f, 0.8f, 229);
-    Vec3 lush = {0.034f, 0.052f, 0.017f}, heath = {0.082f, 0.074f, 0.034f};
-    float dry = clampf(0.25f + 0.6f * tufts.value + 0.7f * height, 0.0f, 1.0f);
-    Ground g = {.color = vec3_lerp(lush, heath, dry)};
-    g.color = vec3_scale(g.color, 1.0f + 0.3f * clampf(tufts.value, -1.3f, 1.3f));
-    g.slope = vec3_scale(tufts.slope, 0.025f * scale);
-    return g;
+    const Turf turf = {.lush = {0.036f, 0.054f, 0.018f},
+                       .straw = {0.096f, 0.084f, 0.040f},
+                       .bush = {0.020f, 0.030f, 0.013f},
+                       .soil = {0.078f, 0.066f, 0.056f},
+                       .scale = 0.6f * scale,
+                       .dry = clampf(0.2f + 0.5f * height, 0.0f, 1.0f)};
+    return slopes_turf(point, &turf);
 }
 
-// The share of snow: it keeps to hollows and chutes, and melts first on dark, rough lava.
+// The share of snow: low down it keeps to chutes, in streaks that end at heights of their own, and
+// melts first on dark, rough lava.
 static float snow_share(const Material *m, const SurfacePoint *point, const Fray *f, float upright)
 {
-    float cold = point->site.x - m->snow_line + 0.05f * f->broad + 0.02f * f->fine;
-    cold -= 0.05f * clampf(point->site.y, 0.0f, 1.0f);
-    float kept = upright - 0.22f * f->chutes.value + 0.03f * f->fine;
-    float least = lerpf(0.92f, 0.62f, smoothstepf(-0.05f, 0.16f, cold));
-    return smoothstepf(-0.03f, 0.03f, cold) * smoothstepf(least - 0.03f, least + 0.05f, kept);
+    float cold = point->site.x - m->snow_line + 0.05f * f->broad + 0.03f * f->fine;
+    cold -=
+        0.05f * clampf(point->site.y, 0.0f, 1.0f) + 0.09f * clampf(f->chutes.value, -1.2f, 1.2f);
+    float kept = upright - 0.10f * f->chutes.value + 0.03f * f->fine;
+    float least = lerpf(0.92f, 0.60f, smoothstepf(-0.05f, 0.14f, cold));
+    return smoothstepf(-0.02f, 0.02f, cold) * smoothstepf(least - 0.03f, least + 0.05f, kept);
 }
 
 void pattern_volcano(const Material *m, const SurfacePoint *point, PatternShade *shade)
@@ -88,7 +91,7 @@ void pattern_volcano(const Material *m, const SurfacePoint *point, PatternShade 
     float upright = fabsf(surface_smooth_normal(point).y);
     Fray f = {.broad = pattern_octaves(point, 5.0f * scale, 5, 0.55f, 1.0f, 231).value,
               .fine = pattern_octaves(point, 0.5f * scale, 7, 0.62f, 1.0f, 237).value,
-              .chutes = pattern_octaves(point, 0.7f * scale, 6, 0.6f, 0.18f, 241)};
+              .chutes = pattern_fall_lines(point, 0.6f * scale, 5, 0.62f, 241)};
     f.both = 0.5f * (f.broad + f.fine);
     Ground g = tephra(m, point, &f, shade->color, scale, upright);
     float red = smoothstepf(0.25f, 0.75f, -ground + 0.25f * f.both);
