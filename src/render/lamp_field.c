@@ -30,8 +30,11 @@ struct LampField {
 
 typedef struct Photon {
     Vec3 origin, direction, color;
+    int channel; // whose extinction in the medium it has
     uint64_t key;
 } Photon;
+
+typedef enum Flight { FLIGHT_ENDED, FLIGHT_MEDIUM, FLIGHT_DROPLET } Flight;
 
 void lamp_field_free(LampField *field)
 {
@@ -48,19 +51,70 @@ int64_t lamp_field_bytes(void)
 
 // ---- photons
 
-static Photon photon_start(const EmissionTable *table, uint64_t key)
+static bool is_grey(Vec3 v)
 {
-    Emission light = emission_draw(table, random_key(key, 0));
-    return (Photon){light.origin, light.direction, light.color, random_key(key, 1)};
+    return v.x == v.y && v.y == v.z;
 }
 
-// Moves the photon to its next collision with a droplet; false where there is none. *length: m, of
-// its way.
-static bool photon_fly(Photon *photon, const Tracer *tracer, uint64_t segment, float *length)
+// Where the medium is coloured, a photon has one channel, drawn by its share of the light, and
+// stands for all of that: each channel then has flights of its own.
+static void choose_channel(Photon *photon, const Filling *medium, float u)
+{
+    if (is_grey(medium->extinction) && is_grey(medium->scattering)) {
+        return;
+    }
+    Vec3 c = photon->color;
+    float sum = c.x + c.y + c.z, at = u * sum;
+    photon->channel = at < c.x ? 0 : (at < c.x + c.y ? 1 : 2);
+    photon->color = vec3(photon->channel == 0 ? sum : 0.0f, photon->channel == 1 ? sum : 0.0f,
+                         photon->channel == 2 ? sum : 0.0f);
+}
+
+static Photon photon_start(const Tracer *tracer, const EmissionTable *table, uint64_t key)
+{
+    Emission light = emission_draw(table, random_key(key, 0));
+    Photon photon = {light.origin, light.direction, light.color, 0, random_key(key, 1)};
+    choose_channel(&photon, &tracer->outside, random_unit(random_key(key, 2)));
+    return photon;
+}
+
+static float channel_of(Vec3 v, int channel)
+{
+    return channel == 0 ? v.x : (channel == 1 ? v.y : v.z);
+}
+
+// The distance at which the medium takes the photon, if nearer than `far`; else `far`.
+static float meet_medium(const Photon *photon, const Tracer *tracer, float far, float u)
+{
+    float rate = channel_of(tracer->outside.extinction, photon->channel);
+    if (rate <= 0.0f) {
+        return far;
+    }
+    MediumLine line = medium_line(&tracer->world->medium, tracer->center, tracer->medium_radius,
+                                  photon->origin, photon->direction, far);
+    float length = -logf(1.0f - u) / rate;
+    return line.count > 0 && length < line.length ? medium_line_at(&line, length) : far;
+}
+
+static Flight scatter_in_medium(Photon *photon, const Filling *medium, uint64_t key)
+{
+    float albedo = channel_of(medium->scattering, photon->channel) /
+                   channel_of(medium->extinction, photon->channel);
+    photon->color = vec3_scale(photon->color, albedo);
+    photon->direction =
+        phase_draw(medium->anisotropy, photon->direction, random_unit(random_key(key, 0)),
+                   random_unit(random_key(key, 1)));
+    return albedo > 0.0f ? FLIGHT_MEDIUM : FLIGHT_ENDED;
+}
+
+// Moves the photon to where a droplet or the medium scatters it. *length: m, of its way.
+static Flight photon_fly(Photon *photon, const Tracer *tracer, uint64_t segment, float *length)
 {
     CloudRay way = {photon->origin, photon->direction, INFINITY, true};
     float scale = cloud_even_extinction(&tracer->droplets);
-    float t = clouds_collide(tracer->clouds, &way, scale, &photon->key);
+    float droplet = clouds_collide(tracer->clouds, &way, scale, &photon->key);
+    uint64_t key = random_key(photon->key, ~segment);
+    float t = meet_medium(photon, tracer, droplet, random_unit(random_key(key, 2)));
     Ray ray = {.origin = photon->origin,
                .direction = photon->direction,
                .far = t,
@@ -69,19 +123,22 @@ static bool photon_fly(Photon *photon, const Tracer *tracer, uint64_t segment, f
     bool met = accel_intersect(tracer->accel, &ray, &hit);
     *length = met ? hit.t : t;
     if (met || isinf(t)) {
-        return false;
+        return FLIGHT_ENDED;
     }
     photon->origin = vec3_madd(photon->origin, t, photon->direction);
+    if (t < droplet) {
+        return scatter_in_medium(photon, &tracer->outside, key);
+    }
     photon->direction = random_direction(random_key(photon->key, 2 * segment + 1));
-    return true;
+    return FLIGHT_DROPLET;
 }
 
 // ---- where the field lies
 
-// Collisions of one pilot.
+// One pilot's collisions with droplets.
 typedef struct Pilot {
     int segments, collisions;
-    double length;    // m, of the ways between collisions
+    double length;    // m, of the ways to them, without the first
     double sum[3][2]; // of coordinates and of their squares
     float low[3], high[3];
 } Pilot;
@@ -90,13 +147,13 @@ static void fly_pilot(Pilot *pilot, const Tracer *tracer, const EmissionTable *t
 {
     *pilot =
         (Pilot){.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
-    Photon photon = photon_start(table, key);
+    Photon photon = photon_start(tracer, table, key);
     float length;
-    bool goes_on = true;
-    while (goes_on && pilot->segments < MOST_SEGMENTS) {
-        goes_on = photon_fly(&photon, tracer, (uint64_t)pilot->segments++, &length);
-        if (!goes_on) {
-            break;
+    Flight flight = FLIGHT_MEDIUM;
+    while (flight != FLIGHT_ENDED && pilot->segments < MOST_SEGMENTS) {
+        flight = photon_fly(&photon, tracer, (uint64_t)pilot->segments++, &length);
+        if (flight != FLIGHT_DROPLET) {
+            continue;
         }
         pilot->length += pilot->collisions++ > 0 ? (double)length : 0.0;
         float at[3] = {photon.origin.x, photon.origin.y, photon.origin.z};
@@ -189,13 +246,13 @@ static LampBox lay_out(const Survey *s)
 static void fly_photon(LampTally *tally, const LampBox *box, const Tracer *tracer,
                        const EmissionTable *table, uint64_t key)
 {
-    Photon photon = photon_start(table, key);
-    bool goes_on = true;
-    for (int i = 0; goes_on && i < MOST_SEGMENTS; i++) {
-        Vec3 from = photon.origin, direction = photon.direction;
+    Photon photon = photon_start(tracer, table, key);
+    Flight flight = FLIGHT_MEDIUM;
+    for (int i = 0; flight != FLIGHT_ENDED && i < MOST_SEGMENTS; i++) {
+        Vec3 from = photon.origin, direction = photon.direction, color = photon.color;
         float length;
-        goes_on = photon_fly(&photon, tracer, (uint64_t)i, &length);
-        lamp_tally_stretch(tally, box, from, direction, length, photon.color);
+        flight = photon_fly(&photon, tracer, (uint64_t)i, &length);
+        lamp_tally_stretch(tally, box, from, direction, length, color);
     }
 }
 
@@ -242,7 +299,7 @@ static bool fill(LampField *field, const Tracer *tracer, const EmissionTable *ta
 bool lamp_field_make(LampField **out, const Tracer *tracer, uint64_t key, const Run *run, Error *e)
 {
     *out = NULL;
-    if (!tracer->clouds || tracer->outside.present || !tracer->has_glow) {
+    if (!tracer->clouds || !tracer->has_glow) {
         return true;
     }
     Error own = {.code = ERROR_NONE};

@@ -1,6 +1,6 @@
 // The light of lamps and glowing geometry among clouds: mean radiance on a grid, made once by
 // photons. A path from the camera finds a lamp deep in a cloud once in hundreds of times; photons
-// from the lamp find all that it lights.
+// from the lamp find all that it lights, by way of a medium that fills the scene, too.
 //
 // The field holds the light where the phase function of droplets has widened to an even one
 // (path_clouds.c): what such a droplet scatters is the mean of the radiance around it. Its error
@@ -21,9 +21,9 @@ struct Tracer;
 typedef struct LampField LampField;
 
 // Makes the field of the tracer's lamps, clouds and geometry; key: of the photons' random numbers.
-// *field is NULL, and no error, where there is little to gain: no lamps, no clouds that they light,
-// or a medium that fills the scene beside them. The caller frees it. Errors: ERROR_MEMORY,
-// ERROR_CANCELLED. The same bits for any number of threads.
+// *field is NULL, and no error, where there is little to gain: no lamps, or no clouds that they
+// light. The caller frees it. Errors: ERROR_MEMORY, ERROR_CANCELLED. The same bits for any number
+// of threads.
 bool lamp_field_make(LampField **field, const struct Tracer *tracer, uint64_t key, const Run *run,
                      Error *e);
 void lamp_field_free(LampField *field); // NULL is fine

@@ -109,6 +109,9 @@ static void gather_light(Path *path, const MediumLine *line)
         return;
     }
     const LightSample *light = &on.light;
+    if (path->lamps_known && isfinite(light->distance)) {
+        return; // what lamps bring by way of this point is in their field
+    }
     Ray shadow = {.origin = vec3_madd(path->ray.origin, t, path->ray.direction),
                   .direction = light->direction,
                   .far = INFINITY,
@@ -140,6 +143,7 @@ static Travel scatter(Path *path, const MediumLine *line, float length, float pd
     bool sampled = lights_can_sample(path->tracer->lights) && !path->media.sheltered;
     float phase = phase_density(filling->anisotropy, vec3_dot(path->ray.direction, direction));
     path->bsdf_pdf = sampled ? phase : 0.0f;
+    path->near = NEAR_BY_POWER;
     path->from = (LightReceiver){.position = point};
     path->start = point;
     path->travelled = 0.0f;

@@ -60,6 +60,7 @@ static Setup set_up(World *world)
                         .has_glow = true,
                         .clouds = s.clouds,
                         .droplets = droplet_phase(20.0f)};
+    tracer_set_media(&s.tracer, aabb_empty());
     return s;
 }
 
@@ -114,22 +115,26 @@ static double endless_fluence(double r)
 
 // Planes at a distance h above and below, through which light is lost, take about ln 2 / h from
 // 1 / r (images of the source), a little less because they act 0.71 mean free paths outside.
-static void even_cloud_has_the_fluence_of_transport_theory(void **state)
+// medium: scattering per metre of one that fills the air as well, evenly and without loss.
+static void assert_fluence(float medium, int last)
 {
-    (void)state;
     World *world = tiny_world(4, 4, 1, 0.5f);
+    world->medium = (Medium){.kind = medium > 0.0f ? MEDIUM_EVERYWHERE : MEDIUM_NONE,
+                             .scattering = vec3_splat(medium),
+                             .extent = 20000.0f};
     const float radius = 10.0f;
     const Vec3 center = {0, 5000, 0};
     add_light(world, ball(center, radius, vec3(8.0f, 4.0f, 2.0f)));
     add_cloud(world, thick_sheet());
     Setup s = set_up(world);
-    double extinction = (double)(clouds_extinction(s.clouds, center) *
-                                 (1.0f - droplet_phase_mean_cosine(&s.tracer.droplets)));
+    double extinction =
+        (double)(medium + clouds_extinction(s.clouds, center) *
+                              (1.0f - droplet_phase_mean_cosine(&s.tracer.droplets)));
     LampField *field = field_of(&s);
     assert_non_null(field);
     double power = (double)PI_F * 4.0 * (double)PI_F * (double)(radius * radius) * 8.0;
     double h = (2800.0 * extinction + 0.71);
-    for (int r = 2; r <= 4; r++) {
+    for (int r = 2; r <= last; r++) {
         double lost = 3.0 * log(2.0) / (4.0 * (double)PI_F * h);
         double wanted =
             power * extinction * extinction * (endless_fluence(r) - lost) / (4.0 * (double)PI_F);
@@ -148,6 +153,20 @@ static void even_cloud_has_the_fluence_of_transport_theory(void **state)
     }
     lamp_field_free(field);
     tear_down(&s);
+}
+
+static void even_cloud_has_the_fluence_of_transport_theory(void **state)
+{
+    (void)state;
+    assert_fluence(0.0f, 4);
+}
+
+// Beyond the sheet the medium goes on, where the planes of the closed form lose light: it holds
+// near the lamp.
+static void a_medium_adds_to_the_extinction_of_the_cloud(void **state)
+{
+    (void)state;
+    assert_fluence(0.0028f, 3);
 }
 
 // The mean over all draws is the flux of all lights; it leaves a quad's front as a cosine does.
@@ -185,7 +204,8 @@ static void emission_has_the_flux_of_the_lights(void **state)
     tear_down(&s);
 }
 
-// A lamp in a sheet of cloud, seen from below. curve: a glowing line instead of the ball.
+// A lamp in a sheet of cloud, seen from below. curve: a glowing line in coloured haze instead of
+// the ball.
 static World *lit_sheet(int samples, bool field, bool curve)
 {
     World *world = tiny_world(12, 8, samples, 0.5f);
@@ -211,6 +231,11 @@ static World *lit_sheet(int samples, bool field, bool curve)
         world->material[1].radiance = vec3(40.0f, 30.0f, 20.0f);
         world->material_count = 2;
         add_part(world, (Part){.kind = PART_CURVES, .curves = curves, .material = 1});
+        world->medium = (Medium){.kind = MEDIUM_EVERYWHERE,
+                                 .scattering = {0.0012f, 0.0018f, 0.0024f},
+                                 .absorption = {0.001f, 0.0f, 0.0006f},
+                                 .anisotropy = 0.5f,
+                                 .extent = 1000.0f};
     } else {
         add_light(world, ball(vec3(0, 1640, 0), 12.0f, vec3(4.0f, 3.0f, 2.0f)));
     }
@@ -278,6 +303,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(emission_has_the_flux_of_the_lights),
         cmocka_unit_test(even_cloud_has_the_fluence_of_transport_theory),
+        cmocka_unit_test(a_medium_adds_to_the_extinction_of_the_cloud),
         cmocka_unit_test(a_field_shows_what_paths_find),
         cmocka_unit_test(threads_do_not_change_it),
         cmocka_unit_test(there_is_none_where_it_does_not_pay),
