@@ -81,9 +81,9 @@ typedef struct Vertex {
     Bsdf bsdf;
 } Vertex;
 
-// Shadow rays that wait to be traced together. A path casts up to six while its ray travels: from
-// a medium, two from rain, from the air before it, from the air and from the surface.
-enum { SHADOWS_LIMIT = 6 * WAVE_SIZE };
+// Shadow rays that wait to be traced together. A path casts up to nine while its ray travels: four
+// from a medium, two from rain, from the air before it, from the air and from the surface.
+enum { CAMERA_GATHERS = 4, SHADOWS_LIMIT = (CAMERA_GATHERS + 5) * WAVE_SIZE };
 
 typedef struct ShadowLight {
     Vec3 light; // what arrives unless the ray is blocked

@@ -1,10 +1,11 @@
 // A path in a medium: where it scatters, and the light that is scattered into its ray.
 //
-// In-scattered light is sampled at one point of each stretch. The point is drawn in one of two
-// ways: by equal angles about a pivot on a near light (Kulla and Fajardo, "Importance Sampling
-// Techniques for Path Tracing in Participating Media", EGSR 2012), or by transmittance; the balance
-// heuristic combines both. The path itself scatters or passes by a distance drawn for one of three
-// channels, weighted over all (Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014).
+// In-scattered light is sampled at one point of each stretch; before the camera at several where
+// there are lamps. A point is drawn in one of two ways: by equal angles about a pivot on a near
+// light (Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in Participating
+// Media", EGSR 2012), or by transmittance; the balance heuristic combines both. The path itself
+// scatters or passes by a distance drawn for one of three channels, weighted over all (Wilkie et
+// al., "Hero Wavelength Spectral Sampling", EGSR 2014).
 #include "render/path.h"
 
 #include <stddef.h>
@@ -91,21 +92,15 @@ static bool draw_gathering(const Path *path, const Stretch *s, const float u[4],
     return *pdf > 0.0f;
 }
 
-// Gathers in-scattered light at one point of the stretch.
-static void gather_light(Path *path, const MediumLine *line)
+// Gathers in-scattered light at one point of the stretch; share: of the points there.
+static void gather_at(Path *path, const Stretch *stretch, const float u[4], const float v[4],
+                      float share)
 {
     const Filling *filling = &path->media.now;
-    float u[4], v[4];
-    uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * path->stretches);
-    sampler_draw(&path->sampler, set, u);
-    sampler_draw(&path->sampler, set + 1, v);
-    Stretch stretch = {
-        line,
-        {path->ray.origin, path->ray.direction, medium_line_near(line), medium_line_far(line)},
-        channel_weights(path->throughput, filling->scattering)};
+    const MediumLine *line = stretch->line;
     SegmentLight on = {.pivot_pdf = 0.0f};
     float pdf, t;
-    if (!draw_gathering(path, &stretch, u, v, &t, &on, &pdf)) {
+    if (!draw_gathering(path, stretch, u, v, &t, &on, &pdf)) {
         return;
     }
     const LightSample *light = &on.light;
@@ -122,8 +117,39 @@ static void gather_light(Path *path, const MediumLine *line)
     Vec3 f = medium_transmittance(filling->extinction, medium_line_length(line, t));
     f = vec3_mul(vec3_mul(f, filling->scattering), light->radiance);
     float density = medium_line_density(line, t);
-    float weight = phase * density * power_heuristic(light->pdf, phase) / pdf;
+    float weight = share * phase * density * power_heuristic(light->pdf, phase) / pdf;
     path_cast_shadow_through(path, &shadow, light, &path->media, vec3_scale(f, weight));
+}
+
+// A coordinate of point k of `count`: a lattice, shifted at random (Cranley and Patterson, 1976).
+static float shifted(float u, float generator, int k)
+{
+    float at = u + generator * (float)k;
+    return fminf(at - floorf(at), 0x1.fffffep-1f);
+}
+
+// Gathers in-scattered light on the stretch. Lamps light it unevenly: where the camera sees it, at
+// several points, evenly spread along it, and by a Kronecker sequence in what chooses the light.
+// (Sun and sky light it so evenly that further points cost more than they gain.)
+static void gather_light(Path *path, const MediumLine *line)
+{
+    float u[4], v[4];
+    uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * path->stretches);
+    sampler_draw(&path->sampler, set, u);
+    sampler_draw(&path->sampler, set + 1, v);
+    Stretch stretch = {
+        line,
+        {path->ray.origin, path->ray.direction, medium_line_near(line), medium_line_far(line)},
+        channel_weights(path->throughput, path->media.now.scattering)};
+    bool first = path->straight && path->stretches == 0;
+    int count = first && path->tracer->has_glow ? CAMERA_GATHERS : 1;
+    for (int k = 0; k < count; k++) {
+        const float at[4] = {shifted(u[0], 0.8566749f, k), shifted(u[1], 1.0f / (float)count, k),
+                             shifted(u[2], 0.7338919f, k), u[3]};
+        const float of[4] = {shifted(v[0], 0.6287067f, k), shifted(v[1], 0.5385973f, k),
+                             shifted(v[2], 0.4614029f, k), v[3]};
+        gather_at(path, &stretch, at, of, 1.0f / (float)count);
+    }
 }
 
 // ---- where the path itself goes
