@@ -164,6 +164,9 @@ void path_see_through_air(Path *path, float distance, float haze_length);
 
 // ---- path_rain.c
 
+// The share of the light from a place `far` m along a ray that rain before it lets through.
+float path_rain_clear(const Tracer *tracer, const Ray *ray, float far);
+
 // Adds the rain in front of what the path's ray has met, `distance` m away. Only for camera rays
 // and mirror reflections of them.
 void path_see_through_rain(Path *path, float distance);

@@ -62,8 +62,9 @@ static float lit_by_lamps(const Tracer *tracer, Vec3 p)
 }
 
 // The share of a camera ray that clouds hide. *normal: the side from which they get thinner,
-// weighted by how much they hide and by the light from outside, which comes from a side: what glows
-// from within has no form, and a denoiser would draw that of the normals. It depends on the ray
+// weighted by how much they hide, by what rain before them lets through, and by the light from
+// outside, which comes from a side: what glows from within has no form, and a denoiser would draw
+// that of the normals. It depends on the ray
 // alone, not on where a droplet scatters the path, so that it can guide a denoiser.
 static float hidden(const Tracer *tracer, const CloudRay *ray, Vec3 *normal)
 {
@@ -72,7 +73,9 @@ static float hidden(const Tracer *tracer, const CloudRay *ray, Vec3 *normal)
     if (opacity > 0.0f) {
         Vec3 p = vec3_madd(ray->origin, distance, ray->direction);
         Vec3 slope = clouds_slope(tracer->clouds, p);
-        float weight = opacity * (1.0f - lit_by_lamps(tracer, p));
+        Ray view = {.origin = ray->origin, .direction = ray->direction, .far = distance};
+        float clear = path_rain_clear(tracer, &view, distance);
+        float weight = opacity * clear * (1.0f - lit_by_lamps(tracer, p));
         *normal = vec3_scale(slope, -weight / (1.0f + vec3_length(slope)));
     }
     return opacity;

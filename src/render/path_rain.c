@@ -38,6 +38,13 @@ static bool find_line(const Rain *rain, const Ray *ray, float far, float jitter,
     return line->depth[STEPS] > 0.0f;
 }
 
+float path_rain_clear(const Tracer *tracer, const Ray *ray, float far)
+{
+    RainLine line;
+    bool rains = tracer->rain.count > 0 && find_line(&tracer->rain, ray, far, 0.5f, &line);
+    return rains ? expf(-line.depth[STEPS]) : 1.0f;
+}
+
 // A distance, by the share of the ray's light that is scattered before it.
 static float draw_distance(const RainLine *line, float u)
 {

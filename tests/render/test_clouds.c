@@ -787,6 +787,52 @@ static void clouds_have_normals_but_no_depth(void **state)
     world_free(world);
 }
 
+// Forms that rain hides do not guide denoisers: normals keep their directions and get shorter, by
+// the exponential of minus the rain's extinction, which is in proportion to rate^0.67.
+static void rain_hides_forms(void **state)
+{
+    (void)state;
+    const float rate[] = {0.0f, 10.0f, 20.0f};
+    Film *film[3];
+    for (int n = 0; n < 3; n++) {
+        World *world = cloudy_world(2);
+        if (n > 0) {
+            world->shower = memory_alloc(1, sizeof *world->shower, NULL);
+            assert_non_null(world->shower);
+            world->shower[0] = shower_default();
+            world->shower[0].radius = 30000.0f; // all that is seen is in it
+            world->shower[0].base = 9000.0f;
+            world->shower[0].rate = rate[n];
+            world->shower[0].streaks = 0.0f;
+            world->shower_count = 1;
+        }
+        film[n] = trace(world, 2, NULL);
+        world_free(world);
+    }
+    int seen = 0;
+    for (int i = 0; i < film[0]->width * film[0]->height; i++) {
+        Vec3 dry = film[0]->normal[i];
+        float share[3], square = vec3_dot(dry, dry);
+        if (square > 0.04f && isinf(film[0]->depth[i])) {
+            for (int n = 1; n < 3; n++) {
+                share[n] = vec3_dot(dry, film[n]->normal[i]) / square;
+                assert_true(vec3_length(vec3_madd(film[n]->normal[i], -share[n], dry)) < 1e-4f);
+            }
+            assert_in_bounds((double)share[1], 0.0, 0.95);
+            if (share[1] < 0.05f) {
+                continue; // far clouds
+            }
+            double power = log((double)share[2]) / log((double)share[1]);
+            assert_in_bounds(power, 0.995 * pow(2.0, 0.67), 1.005 * pow(2.0, 0.67));
+            seen++;
+        }
+    }
+    assert_true(seen > 20);
+    for (int n = 0; n < 3; n++) {
+        film_free(film[n]);
+    }
+}
+
 static void threads_do_not_change_clouds(void **state)
 {
     (void)state;
@@ -823,6 +869,7 @@ int main(void)
         cmocka_unit_test(guides_see_through_fog_without_chance),
         cmocka_unit_test(clouds_shade_the_land),
         cmocka_unit_test(clouds_have_normals_but_no_depth),
+        cmocka_unit_test(rain_hides_forms),
         cmocka_unit_test(threads_do_not_change_clouds),
     };
     return cmocka_run_group_tests(tests, grow_sky, free_sky);

@@ -31,8 +31,8 @@ static Ground reeds(const SurfacePoint *point, float broad)
     Vec3 straw = {0.205f, 0.165f, 0.092f};
     Ground g = {.color = vec3_lerp(green, fresh, smoothstepf(-0.3f, 0.3f, beds.value))};
     g.color = vec3_lerp(g.color, straw, 0.8f * smoothstepf(0.15f, 0.6f, beds.value + 0.5f * broad));
-    g.color = vec3_scale(g.color, 1.0f + 0.20f * clampf(tufts.value, -1.3f, 1.3f));
-    g.slope = vec3_madd(vec3_scale(tufts.slope, 0.12f), 0.25f, beds.slope);
+    g.color = vec3_scale(g.color, 1.0f + 0.32f * clampf(tufts.value, -1.3f, 1.3f));
+    g.slope = vec3_madd(vec3_scale(tufts.slope, 0.26f), 0.25f, beds.slope);
     return g;
 }
 
@@ -44,9 +44,9 @@ static Ground marsh(const Material *m, const SurfacePoint *point, float damp, fl
     float t = 0.6f * sward.value + 1.1f * broad;
     Ground g = {.color = vec3_lerp(m->color2, olive, smoothstepf(-0.3f, 0.4f, t))};
     g.color = vec3_lerp(g.color, brown, 0.7f * smoothstepf(0.3f, 0.8f, t + 0.5f * damp - 0.25f));
-    g.color = vec3_scale(g.color, 1.0f + 0.14f * clampf(sward.value, -1.3f, 1.3f) +
-                                      0.16f * clampf(tufts.value, -1.3f, 1.3f));
-    g.slope = vec3_madd(vec3_scale(tufts.slope, 0.10f), 0.12f, sward.slope);
+    g.color = vec3_scale(g.color, 1.0f + 0.22f * clampf(sward.value, -1.3f, 1.3f) +
+                                      0.30f * clampf(tufts.value, -1.3f, 1.3f));
+    g.slope = vec3_madd(vec3_scale(tufts.slope, 0.24f), 0.2f, sward.slope);
     return g;
 }
 
