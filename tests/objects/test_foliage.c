@@ -198,6 +198,40 @@ static void a_rosette_is_at_the_end(void **state)
     geometry_clear(&geometry);
 }
 
+// Dead leaves come on top of the living, hang below them and keep their colour all year.
+static void withered_leaves_hang_below_a_rosette(void **state)
+{
+    (void)state;
+    enum { LIVING = 20, WITHERED = 12 };
+    LeavesParams leaves = plain_leaves(ARRANGE_ROSETTE);
+    leaves.per_node = LIVING;
+    leaves.angle = 100.0f;
+    leaves.withered = WITHERED;
+    Vec3 up = vec3(0, 1, 0);
+    for (int turning = 0; turning < 2; turning++) {
+        leaves.autumn = turning ? 0.4f : 0.0f;
+        Geometry geometry = grow_on(&leaves, up);
+        const Part *part = &geometry.part[0];
+        assert_int_equal(part->instance_count, LIVING + WITHERED);
+        float lowest = TWIG_LENGTH;
+        for (int64_t i = 0; i < LIVING; i++) {
+            assert_true(turning || part->season[i] == 0.0f);
+            lowest = fminf(lowest, part->instance[i].m[1][3]);
+        }
+        for (int64_t i = LIVING; i < LIVING + WITHERED; i++) {
+            assert_true(part->season[i] == 1.0f);
+            assert_true(part->instance[i].m[1][3] < lowest);
+            assert_true(i < LIVING + WITHERED / 2 || axis(&part->instance[i], 1).y < -0.1f);
+        }
+        geometry_clear(&geometry);
+    }
+    leaves.arrangement = ARRANGE_WHORLED; // of rosettes alone
+    leaves.autumn = 0.0f;
+    Geometry geometry = grow_on(&leaves, up);
+    assert_int_equal(geometry.part[0].instance_count % LIVING, 0);
+    geometry_clear(&geometry);
+}
+
 // However wide the spacing, a rosette keeps its leaves: then fewer twigs have any.
 static void rosettes_are_limited(void **state)
 {
@@ -373,6 +407,7 @@ int main(void)
         cmocka_unit_test(two_rows_lie_left_and_right),
         cmocka_unit_test(hanging_leaves_hang),
         cmocka_unit_test(a_rosette_is_at_the_end),
+        cmocka_unit_test(withered_leaves_hang_below_a_rosette),
         cmocka_unit_test(rosettes_are_limited),
         cmocka_unit_test(short_shoots_bear_clusters),
         cmocka_unit_test(needles_cover_the_twig),
