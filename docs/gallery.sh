@@ -133,7 +133,7 @@ panel() {
 join() {
     name=$1 grid=$2
     shift 2
-    for quality in 90 84 78; do
+    for quality in 90 84 78 72 66; do
         oiiotool "$@" --mosaic:pad=4 "$grid" --ch R,G,B --compression "jpeg:$quality" -o "renders/$name.jpg"
         [ "$(wc -c <"renders/$name.jpg")" -gt 900000 ] || break
     done
