@@ -4,6 +4,8 @@
 #include "objects/tree/tree.h"
 #include "testing.h"
 
+#include <stdio.h>
+
 enum { POINTS = 11 };
 static const float TWIG_LENGTH = 0.5f;
 
@@ -266,6 +268,59 @@ static void rosettes_are_limited(void **state)
     curves_free(curves);
 }
 
+static void note_warning(void *user, const char *message)
+{
+    snprintf(user, 512, "%s", message);
+}
+
+// Warning about leaves on a shoot of ten equal internodes, the lower `thick` of which are thicker
+// than curve_radius and all thinner than twig_radius; empty if there is none.
+static void warning_of_shoot(int thick, float curve_radius, char text[512])
+{
+    Error e = {0};
+    Geometry geometry = {0};
+    text[0] = '\0';
+    Run run = run_default();
+    run.warn = note_warning;
+    run.user = text;
+    Recipe recipe = {.seed = 1, .label = "shoot", .run = &run};
+    static const int material[3] = {0};
+    Placing placing = {.recipe = &recipe, .geometry = &geometry, .material = material};
+    OutTree *tree = out_tree_new(&e);
+    for (int i = 0; i <= 10; i++) {
+        uint64_t id = i == 0 ? 1 : out_tree_child_id(tree->id[i - 1], 0);
+        assert_int_equal(out_tree_add_node(tree, vec3(0, 0.1f * (float)i, 0), i - 1, i, 0, id, &e),
+                         i);
+        tree->radius[i] = i <= thick ? 0.008f : 0.003f;
+    }
+    LeavesParams leaves = plain_leaves(ARRANGE_SPIRAL);
+    leaves.twig_radius = 0.01f;
+    SkinningParams skin = {.curve_radius = curve_radius};
+    TwigParams twigs = {.skin = &skin, .leaves = &leaves, .bare_from = -1, .leaf_role = 1};
+    assert_true(branches_add_twigs(tree, &twigs, &placing, &e));
+    geometry_clear(&geometry);
+    out_tree_free(tree);
+}
+
+// Leaves stand on curves alone: where most of the thin branches are mesh, that is told.
+static void leaves_lost_to_the_mesh_are_told(void **state)
+{
+    (void)state;
+    char text[512];
+    warning_of_shoot(6, 0.005f, text);
+    assert_non_null(strstr(text, "60 %"));
+    assert_non_null(strstr(text, "skin.curve_radius, 0.005 m"));
+    assert_non_null(strstr(text, "leaves.twig_radius, 0.01 m"));
+    warning_of_shoot(10, 0.001f, text); // not one leaf
+    assert_non_null(strstr(text, "100 %"));
+    warning_of_shoot(4, 0.005f, text);
+    assert_string_equal(text, "");
+    warning_of_shoot(6, 0.01f, text);
+    assert_string_equal(text, "");
+    warning_of_shoot(6, 0.0f, text); // all is mesh: leaves have curves of their own
+    assert_string_equal(text, "");
+}
+
 static void short_shoots_bear_clusters(void **state)
 {
     (void)state;
@@ -409,6 +464,7 @@ int main(void)
         cmocka_unit_test(a_rosette_is_at_the_end),
         cmocka_unit_test(withered_leaves_hang_below_a_rosette),
         cmocka_unit_test(rosettes_are_limited),
+        cmocka_unit_test(leaves_lost_to_the_mesh_are_told),
         cmocka_unit_test(short_shoots_bear_clusters),
         cmocka_unit_test(needles_cover_the_twig),
         cmocka_unit_test(leaves_turn_from_the_top),
