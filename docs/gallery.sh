@@ -133,7 +133,7 @@ panel() {
 join() {
     name=$1 grid=$2
     shift 2
-    for quality in 90 84 78; do
+    for quality in 90 84 78 72 66; do
         oiiotool "$@" --mosaic:pad=4 "$grid" --ch R,G,B --compression "jpeg:$quality" -o "renders/$name.jpg"
         [ "$(wc -c <"renders/$name.jpg")" -gt 900000 ] || break
     done
@@ -244,18 +244,20 @@ if is_wanted figure-12; then
     done
     sheet figure-12 2x2
 fi
-# species_rows NAME: a sheet of the four rows of trees, each as its own camera sees it.
+# species_rows NAME: a sheet of the five rows of trees, each as its own camera sees it.
 species_rows() {
     is_wanted "$1" || return 0
     panel "$1" --size 2560x680 --set camera.position='[0, 107.39, 592.61]' --set camera.target='[0, 13.53, 0]' \
-        --set camera.fov=3.3726
-    panel "$1" --size 2560x680 --set camera.position='[0, 104.23, 1192.61]' --set camera.target='[0, 10.37, 600]' \
-        --set camera.fov=2.5868
-    panel "$1" --size 2560x680 --set camera.position='[0, 98.54, 1792.61]' --set camera.target='[0, 4.68, 1200]' \
-        --set camera.fov=1.1668
-    panel "$1" --size 2560x680 --set camera.position='[0, 97.52, 2392.61]' --set camera.target='[0, 3.66, 1800]' \
-        --set camera.fov=0.9131
-    sheet "$1" 1x4
+        --set camera.fov=3.3699
+    panel "$1" --size 2560x680 --set camera.position='[0, 102.60, 1192.61]' --set camera.target='[0, 8.74, 600]' \
+        --set camera.fov=2.1770
+    panel "$1" --size 2560x680 --set camera.position='[0, 101.33, 1792.61]' --set camera.target='[0, 7.47, 1200]' \
+        --set camera.fov=1.8619
+    panel "$1" --size 2560x680 --set camera.position='[0, 97.16, 2392.61]' --set camera.target='[0, 3.30, 1800]' \
+        --set camera.fov=0.8212
+    panel "$1" --size 2560x680 --set camera.position='[0, 96.39, 2992.61]' --set camera.target='[0, 2.53, 2400]' \
+        --set camera.fov=0.6302
+    sheet "$1" 1x5
 }
 species_rows species
 species_rows species-winter

@@ -4,6 +4,8 @@
 #include "objects/tree/tree.h"
 #include "testing.h"
 
+#include <stdio.h>
+
 enum { POINTS = 11 };
 static const float TWIG_LENGTH = 0.5f;
 
@@ -198,6 +200,40 @@ static void a_rosette_is_at_the_end(void **state)
     geometry_clear(&geometry);
 }
 
+// Dead leaves come on top of the living, hang below them and keep their colour all year.
+static void withered_leaves_hang_below_a_rosette(void **state)
+{
+    (void)state;
+    enum { LIVING = 20, WITHERED = 12 };
+    LeavesParams leaves = plain_leaves(ARRANGE_ROSETTE);
+    leaves.per_node = LIVING;
+    leaves.angle = 100.0f;
+    leaves.withered = WITHERED;
+    Vec3 up = vec3(0, 1, 0);
+    for (int turning = 0; turning < 2; turning++) {
+        leaves.autumn = turning ? 0.4f : 0.0f;
+        Geometry geometry = grow_on(&leaves, up);
+        const Part *part = &geometry.part[0];
+        assert_int_equal(part->instance_count, LIVING + WITHERED);
+        float lowest = TWIG_LENGTH;
+        for (int64_t i = 0; i < LIVING; i++) {
+            assert_true(turning || part->season[i] == 0.0f);
+            lowest = fminf(lowest, part->instance[i].m[1][3]);
+        }
+        for (int64_t i = LIVING; i < LIVING + WITHERED; i++) {
+            assert_true(part->season[i] == 1.0f);
+            assert_true(part->instance[i].m[1][3] < lowest);
+            assert_true(i < LIVING + WITHERED / 2 || axis(&part->instance[i], 1).y < -0.1f);
+        }
+        geometry_clear(&geometry);
+    }
+    leaves.arrangement = ARRANGE_WHORLED; // of rosettes alone
+    leaves.autumn = 0.0f;
+    Geometry geometry = grow_on(&leaves, up);
+    assert_int_equal(geometry.part[0].instance_count % LIVING, 0);
+    geometry_clear(&geometry);
+}
+
 // However wide the spacing, a rosette keeps its leaves: then fewer twigs have any.
 static void rosettes_are_limited(void **state)
 {
@@ -230,6 +266,59 @@ static void rosettes_are_limited(void **state)
     assert_int_equal(geometry.part[0].instance_count % 30, 0);
     geometry_clear(&geometry);
     curves_free(curves);
+}
+
+static void note_warning(void *user, const char *message)
+{
+    snprintf(user, 512, "%s", message);
+}
+
+// Warning about leaves on a shoot of ten equal internodes, the lower `thick` of which are thicker
+// than curve_radius and all thinner than twig_radius; empty if there is none.
+static void warning_of_shoot(int thick, float curve_radius, char text[512])
+{
+    Error e = {0};
+    Geometry geometry = {0};
+    text[0] = '\0';
+    Run run = run_default();
+    run.warn = note_warning;
+    run.user = text;
+    Recipe recipe = {.seed = 1, .label = "shoot", .run = &run};
+    static const int material[3] = {0};
+    Placing placing = {.recipe = &recipe, .geometry = &geometry, .material = material};
+    OutTree *tree = out_tree_new(&e);
+    for (int i = 0; i <= 10; i++) {
+        uint64_t id = i == 0 ? 1 : out_tree_child_id(tree->id[i - 1], 0);
+        assert_int_equal(out_tree_add_node(tree, vec3(0, 0.1f * (float)i, 0), i - 1, i, 0, id, &e),
+                         i);
+        tree->radius[i] = i <= thick ? 0.008f : 0.003f;
+    }
+    LeavesParams leaves = plain_leaves(ARRANGE_SPIRAL);
+    leaves.twig_radius = 0.01f;
+    SkinningParams skin = {.curve_radius = curve_radius};
+    TwigParams twigs = {.skin = &skin, .leaves = &leaves, .bare_from = -1, .leaf_role = 1};
+    assert_true(branches_add_twigs(tree, &twigs, &placing, &e));
+    geometry_clear(&geometry);
+    out_tree_free(tree);
+}
+
+// Leaves stand on curves alone: where most of the thin branches are mesh, that is told.
+static void leaves_lost_to_the_mesh_are_told(void **state)
+{
+    (void)state;
+    char text[512];
+    warning_of_shoot(6, 0.005f, text);
+    assert_non_null(strstr(text, "60 %"));
+    assert_non_null(strstr(text, "skin.curve_radius, 0.005 m"));
+    assert_non_null(strstr(text, "leaves.twig_radius, 0.01 m"));
+    warning_of_shoot(10, 0.001f, text); // not one leaf
+    assert_non_null(strstr(text, "100 %"));
+    warning_of_shoot(4, 0.005f, text);
+    assert_string_equal(text, "");
+    warning_of_shoot(6, 0.01f, text);
+    assert_string_equal(text, "");
+    warning_of_shoot(6, 0.0f, text); // all is mesh: leaves have curves of their own
+    assert_string_equal(text, "");
 }
 
 static void short_shoots_bear_clusters(void **state)
@@ -373,7 +462,9 @@ int main(void)
         cmocka_unit_test(two_rows_lie_left_and_right),
         cmocka_unit_test(hanging_leaves_hang),
         cmocka_unit_test(a_rosette_is_at_the_end),
+        cmocka_unit_test(withered_leaves_hang_below_a_rosette),
         cmocka_unit_test(rosettes_are_limited),
+        cmocka_unit_test(leaves_lost_to_the_mesh_are_told),
         cmocka_unit_test(short_shoots_bear_clusters),
         cmocka_unit_test(needles_cover_the_twig),
         cmocka_unit_test(leaves_turn_from_the_top),

@@ -353,6 +353,37 @@ static void stems_scatter_inside_their_circle(void **state)
     out_tree_free(tree);
 }
 
+// Each stem starts at the splay's angle, away from the middle, and the tree is wider for it.
+static void stems_splay_outward(void **state)
+{
+    (void)state;
+    TreeParams params = bare_tree();
+    params.height = 5.0f;
+    params.light.growth.seasons = 8;
+    params.trunk.lean = 0.0f;
+    params.trunk.stems = 6;
+    params.trunk.stem_circle = 0.5f;
+    float width[2];
+    for (int splayed = 0; splayed < 2; splayed++) {
+        params.trunk.splay = splayed ? 30.0f : 0.0f;
+        OutTree *tree = grow(&params, 5);
+        for (int64_t i = 0; i < tree->count; i++) {
+            if (tree->parent[i] >= 0) {
+                continue;
+            }
+            Vec3 foot = tree->position[i + 1];
+            Vec3 along = vec3_normalize(vec3_sub(foot, tree->position[i]));
+            float out = (along.x * foot.x + along.z * foot.z) / 0.5f;
+            assert_true(fabsf(out - (splayed ? 0.5f : 0.0f)) < 1e-3f); // sin 30
+            assert_true(fabsf(along.y - (splayed ? sqrtf(0.75f) : 1.0f)) < 1e-3f);
+        }
+        Aabb box = out_tree_bounds(tree);
+        width[splayed] = box.high.x - box.low.x;
+        out_tree_free(tree);
+    }
+    assert_true(width[1] > 1.15f * width[0]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -368,6 +399,7 @@ int main(void)
         cmocka_unit_test(what_years_leave_has_geometry),
         cmocka_unit_test(stems_grow_beside_each_other),
         cmocka_unit_test(stems_scatter_inside_their_circle),
+        cmocka_unit_test(stems_splay_outward),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,6 +42,30 @@ static bool add_leaves(const OutTree *tree, const TwigParams *params, const Curv
     return done;
 }
 
+// Warns when most of what is thin enough to bear leaves is mesh, which bears none.
+static void warn_of_lost_leaves(const OutTree *tree, const TwigParams *params, const Recipe *recipe)
+{
+    const float most = 0.5f; // of the length: less is the lower end of some twigs
+    float thin = params->leaves->twig_radius, drawn = params->skin->curve_radius;
+    double all = 0.0, lost = 0.0; // m
+    for (int64_t i = 0; i < tree->count && drawn < thin; i++) {
+        bool bears = params->bare_from < 0 || tree->colony[i] < params->bare_from;
+        if (tree->parent[i] >= 0 && bears && tree->radius[i] < thin) {
+            double length =
+                (double)vec3_distance(tree->position[i], tree->position[tree->parent[i]]);
+            all += length;
+            lost += tree->radius[i] < drawn ? 0.0 : length;
+        }
+    }
+    if (lost > (double)most * all) {
+        recipe_warn(recipe, NULL,
+                    "%.0f %% of the branches thinner than leaves.twig_radius, %g m, bear no "
+                    "leaves, for only those thinner than skin.curve_radius, %g m, do; increase "
+                    "skin.curve_radius to leaves.twig_radius",
+                    100.0 * lost / all, (double)thin, (double)drawn);
+    }
+}
+
 // Leaves of a rosette stand on the ends of trunks too, which no curves show.
 static bool add_rosettes(const OutTree *tree, const TwigParams *params, const SkinParams *skin,
                          const Placing *placing, Error *e)
@@ -70,6 +94,9 @@ bool branches_add_twigs(const OutTree *tree, const TwigParams *params, const Pla
         if (!drawn) {
             return true;
         }
+    }
+    if (drawn && leafy) {
+        warn_of_lost_leaves(tree, params, placing->recipe);
     }
     float radius = drawn ? params->skin->curve_radius : params->leaves->twig_radius;
     CurveSet *twigs = skin_curves(tree, radius, &skin, e);

@@ -45,7 +45,8 @@ bool *branches_bare(const OutTree *tree, const CurveSet *curves, int32_t first, 
 
 // Adds the branches thinner than skin->curve_radius as curves, and the leaves on thin branches.
 // Leaves are placed on the curves drawn as twigs, so that none floats. If every twig is mesh, the
-// curves are made for the leaves alone.
+// curves are made for the leaves alone. A warning tells if most branches that are thin enough for
+// leaves have none, because they are mesh.
 bool branches_add_twigs(const OutTree *tree, const TwigParams *params, const Placing *placing,
                         Error *e);
 

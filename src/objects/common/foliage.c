@@ -63,13 +63,13 @@ static float node_gap(const Foliage *foliage, int64_t number)
     return foliage->spacing * gap * leaf_size_at(foliage->leaves, number);
 }
 
-static bool add_leaf(Foliage *foliage, Transform place, uint64_t key, Error *e)
+// season: LeafBatch's.
+static bool add_leaf(Foliage *foliage, Transform place, float season, uint64_t key, Error *e)
 {
     int variant =
         (int)(random_unit(random_key(key, STREAM_VARIANT)) * (float)foliage->leaves->variants);
     return leaf_batch_add(&foliage->batch[variant], place,
-                          random_unit(random_key(key, STREAM_VARIATION)),
-                          leaves_emergence(foliage->leaves, key) - 1.0f, e);
+                          random_unit(random_key(key, STREAM_VARIATION)), season, e);
 }
 
 // Point of the twig `distance` (m) before p, toward its start; p is on the segment below point i.
@@ -99,11 +99,14 @@ static bool add_node(Foliage *foliage, const CurveSet *twigs, int64_t first, int
                add_leaf(
                    foliage,
                    leaf_place_piece(leaves, start, node->position, foliage->spacing, node->key),
-                   node->key, e);
+                   leaves_emergence(leaves, node->key) - 1.0f, node->key, e);
     }
     bool done = true;
-    for (int k = 0; done && k < leaves_per_node(leaves); k++) {
-        done = add_leaf(foliage, leaf_place(leaves, node, k, foliage->light), leaf_key(node, k), e);
+    for (int k = 0; done && k < leaves_at_node(leaves); k++) {
+        uint64_t key = leaf_key(node, k);
+        bool living = k < leaves_per_node(leaves);
+        float season = living ? leaves_emergence(leaves, key) - 1.0f : 1.0f;
+        done = add_leaf(foliage, leaf_place(leaves, node, k, foliage->light), season, key, e);
     }
     return done;
 }
@@ -157,7 +160,7 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
                 return number;
             }
             if (tip_only) {
-                return leaves_per_node(leaves);
+                return leaves_at_node(leaves);
             }
             until += pieces ? foliage->spacing : node_gap(foliage, number);
             number++;

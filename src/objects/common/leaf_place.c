@@ -157,10 +157,26 @@ static Transform place_on_spur(const LeavesParams *leaves, const LeafNode *node,
     return leaf_frame(leaves, tip, spur, out, leaves->angle, light, key);
 }
 
+// A dead leaf below the rosette: it hangs about the trunk, the older the lower and the closer.
+static Transform place_withered(const LeavesParams *leaves, const LeafNode *node, int k,
+                                const LeafLight *light, uint64_t key)
+{
+    const float least = 105.0f, most = 150.0f; // degrees from the trunk's direction
+    const float depth = 3.0f;                  // trunk radii that the skirt's bases cover
+    float age = ((float)(k - leaves_per_node(leaves)) + 0.5f) / (float)leaves->withered;
+    Vec3 out = side_at(node, azimuth(leaves, node, k, key));
+    Vec3 p = vec3_madd(node->position, -(1.8f + depth * age) * node->radius, node->along);
+    p = vec3_madd(p, 0.85f * node->radius, out);
+    return leaf_frame(leaves, p, node->along, out, lerpf(least, most, age), light, key);
+}
+
 // A leaf of a rosette: the innermost nearly upright, the outermost at the full angle and lower.
 static Transform place_in_rosette(const LeavesParams *leaves, const LeafNode *node, int k,
                                   const LeafLight *light, uint64_t key)
 {
+    if (k >= leaves_per_node(leaves)) {
+        return place_withered(leaves, node, k, light, key);
+    }
     float rank = ((float)k + 0.5f) / (float)leaves_per_node(leaves);
     Vec3 out = side_at(node, azimuth(leaves, node, k, key));
     Vec3 p = vec3_madd(node->position, -1.8f * node->radius * rank, node->along);

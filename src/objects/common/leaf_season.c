@@ -90,7 +90,8 @@ static void turn(const LeavesParams *leaves, LeafBatch *batch, const Ranked *ran
         float at = ((float)i + 0.5f) / (float)total;
         float turned = clampf((leaves->autumn * (1.0f + span) - at) / span, 0.0f, 1.0f);
         if (turned > 0.0f) {
-            batch[ranked[i].batch].season[ranked[i].number] = turned;
+            float *season = &batch[ranked[i].batch].season[ranked[i].number];
+            *season = fmaxf(*season, turned); // a withered one stays so
         }
     }
 }

@@ -88,6 +88,12 @@ int leaves_per_node(const LeavesParams *leaves)
     }
 }
 
+int leaves_at_node(const LeavesParams *leaves)
+{
+    bool skirted = leaves->arrangement == ARRANGE_ROSETTE;
+    return leaves_per_node(leaves) + (skirted ? leaves->withered : 0);
+}
+
 float leaves_emergence(const LeavesParams *leaves, uint64_t key)
 {
     const float spread = 0.25f;

@@ -24,6 +24,7 @@ typedef struct LeavesParams {
     float twig_radius; // m: only branches thinner than this bear leaves
     LeafArrangement arrangement;
     int per_node;      // leaves of a whorl, a short shoot or a rosette; 0 = the arrangement's own
+    int withered;      // dead leaves that hang below a rosette, in autumn_color
     float phyllotaxis; // degrees about the twig between successive nodes; 137.5 in nature
     float crowding;    // 0..1: how much closer the last five nodes of a twig are
     int tip_leaves;    // nodes at a twig's end whose leaves are smaller toward it; 0 = none
@@ -81,8 +82,11 @@ static inline bool leaves_are_pieces(const LeavesParams *leaves)
     return leaves->shape == LEAF_NEEDLES && leaves->side_shoots == 0;
 }
 
-// Leaves of a node.
+// Living leaves of a node.
 int leaves_per_node(const LeavesParams *leaves);
+
+// All of a node: of a rosette the withered ones come after the living.
+int leaves_at_node(const LeavesParams *leaves);
 
 // How far the leaf with this key has grown, 0..1: some are ahead of others.
 float leaves_emergence(const LeavesParams *leaves, uint64_t key);

@@ -43,6 +43,9 @@ static const Key LEAVES_KEYS[] = {
             "trunks alone (palms, tree ferns)."},
     {KEY_OF(LeavesParams, per_node, "per_node", KEY_INT), .high = 1000,
      .doc = "Leaves of each whorl, short shoot or rosette; 0 = 3, 5 or 40."},
+    {KEY_OF(LeavesParams, withered, "withered", KEY_INT), .high = 1000,
+     .doc = "Dead leaves of a rosette, in their material's autumn_color, that hang below the "
+            "living ones about the trunk, as a palm's skirt; 0 = none."},
     {KEY_OF(LeavesParams, phyllotaxis, "phyllotaxis", KEY_FLOAT), .low = -360, .high = 360,
      .unit = "degrees",
      .doc = "Arrangement spiral: divergence angle about the twig from one leaf to the next; 137.5 "

@@ -15,6 +15,14 @@ enum { TRIAL_CELLS = 30000 };      // voxels of the grid of a trial
 enum { LEAST_TRIAL_SEASONS = 30 }; // for limbs that attractors laid
 #define CELLS_AMONG_RIVALS 150000
 
+// Tangent of the splay (1/m) a metre from the stems' middle.
+static float splay_per_metre(const TrunkParams *trunk)
+{
+    float sine, cosine;
+    exact_sincos(trunk->splay * RADIANS_PER_DEGREE, &sine, &cosine);
+    return sine / (cosine * trunk->stem_circle);
+}
+
 // The tree's stems, each leaning.
 static OutTree *plant(const TreeParams *params, uint64_t seed, Error *e)
 {
@@ -28,9 +36,13 @@ static OutTree *plant(const TreeParams *params, uint64_t seed, Error *e)
     exact_sincos(trunk->lean_azimuth * RADIANS_PER_DEGREE, &sine, &cosine);
     exact_sincos(trunk->lean * RADIANS_PER_DEGREE, &lean_sine, &lean_cosine);
     Vec3 up = vec3(lean_sine * sine, lean_cosine, lean_sine * cosine);
+    float spread = trunk->stems > 1 ? splay_per_metre(trunk) : 0.0f;
     for (int64_t i = 0; i < start->count; i++) {
         if (start->parent[i] < 0) { // below the foot, which follows it
-            start->position[i] = vec3_madd(start->position[i + 1], -trunk->radius, up);
+            Vec3 foot = start->position[i + 1];
+            Vec3 along = vec3_madd(up, spread, vec3_sub(foot, params->position));
+            along = spread > 0.0f ? vec3_normalize(along) : up;
+            start->position[i] = vec3_madd(foot, -trunk->radius, along);
         }
     }
     return start;
@@ -142,6 +154,7 @@ static uint64_t trial_key(const TreePlan *plan, const LightSite *site)
                           trunk->stem_scatter};
     uint64_t key = key_of_words(STREAM_TRIAL, &growth, offsetof(LightParams, upkeep));
     key = key_of_words(key, more, sizeof more);
+    key = trunk->splay > 0.0f ? key_of_words(key, &trunk->splay, sizeof trunk->splay) : key;
     return growth.upkeep > 0.0f ? key_of_words(key, &growth.upkeep, sizeof growth.upkeep) : key;
 }
 

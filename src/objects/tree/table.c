@@ -23,6 +23,9 @@ static const Key TRUNK_KEYS[] = {
      .doc = "Radius of the circle of stems; 0 = the trunk's radius."},
     {KEY_OF(TrunkParams, stem_scatter, "stem_scatter", KEY_FLOAT), .high = 1,
      .doc = "How far stems leave the circle for its inside: 0 = a ring, 1 = a thicket."},
+    {KEY_OF(TrunkParams, splay, "splay", KEY_FLOAT), .high = 89, .unit = "degrees",
+     .doc = "Angle by which several stems of a tree grown by light lean away from their middle at "
+            "the foot, as of hazel; less inside the circle."},
     {KEY_OF(TrunkParams, ribs, "ribs", KEY_INT), .high = 60,
      .doc = "Number of ribs along trunk and branches, as of a columnar cactus; 0 = round."},
     {KEY_OF(TrunkParams, rib_depth, "rib_depth", KEY_FLOAT), .high = 0.5, .unit = "radii",

@@ -27,6 +27,7 @@ typedef struct TrunkParams {
     int stems;          // stems that start on a circle about the base; 1 = a plain trunk
     float stem_circle;  // m, radius of that circle; 0 = the trunk's radius
     float stem_scatter; // 0..1: from on the circle to all over its inside
+    float splay;        // degrees that stems on the circle lean outward, grown by light
     int ribs;           // along trunk and arms, as of a cactus; 0 = round
     float rib_depth;    // of the grooves between them, in radii
 } TrunkParams;
