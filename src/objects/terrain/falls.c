@@ -217,9 +217,8 @@ static void add_quad(FallMesher *f, uint32_t v, uint32_t columns)
     corner[3] = v + 1 - columns;
 }
 
-static void add_vertex(FallMesher *f, Vec3 at, float foam)
+static void put_vertex(FallMesher *f, int64_t v, Vec3 at, float foam)
 {
-    int64_t v = f->vertices++;
     f->mesh->position[v] = vec3_add(at, f->terrain->params->position);
     f->mesh->uv[v] = (Vec2){f->mesh->position[v].x, f->mesh->position[v].z};
     f->mesh->foam[v] = foam;
@@ -230,7 +229,7 @@ static void add_strand_row(FallMesher *f, Vec3 p, Vec3 along, float half, float 
     Vec3 front = vec3_normalize(vec3_cross(along, f->across));
     for (int i = 0; i < 3; i++) {
         Vec3 at = vec3_madd(p, (float)(i - 1) * half, f->across);
-        add_vertex(f, i == 1 ? vec3_madd(at, 0.6f * half, front) : at, foam);
+        put_vertex(f, f->vertices++, i == 1 ? vec3_madd(at, 0.6f * half, front) : at, foam);
     }
 }
 
@@ -306,12 +305,10 @@ static void add_sheet(FallMesher *f)
             Vec3 p = count > 1 ? vec3_lerp(place[k], place[k + 1], at - (float)k)
                                : strand_start(f, 0.97f * side);
             float white = smoothstepf(0.1f, 0.9f, along + 0.7f * streak * (1.0f - along));
-            int64_t next = f->vertices;
-            f->vertices = first + row * columns + column;
-            add_vertex(f, p, lerpf(lip, 1.0f, white));
-            f->vertices = next;
+            uint32_t v = first + row * columns + column;
+            put_vertex(f, v, p, lerpf(lip, 1.0f, white));
             if (row > 0 && column + 1 < columns) {
-                add_quad(f, first + row * columns + column, columns);
+                add_quad(f, v, columns);
             }
         }
     }
