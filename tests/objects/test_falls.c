@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "land/height_drainage.h"
 #include "land/height_maps.h"
 #include "land/height_mesh.h"
 #include "mesh/geometry.h"
@@ -422,6 +423,18 @@ static void rivers_lie_level_beside_a_wall(void **state)
     drop_valley(&v);
 }
 
+// The sill above a lip dams nothing: the bed behind it drains through a notch.
+static void land_with_a_sill_drains(void **state)
+{
+    (void)state;
+    Valley v = make_valley(stepped);
+    lay(&v);
+    int64_t lip;
+    assert_int_equal(count_falls(&v, &lip), 1);
+    assert_int_equal(height_field_pits(v.field), 0);
+    drop_valley(&v);
+}
+
 // The strands of a fall lie between the parabolas of the slowest and the fastest, on both sides of
 // that of the mean speed, and end on the pool.
 static void strands_fall_into_the_pool(void **state)
@@ -682,6 +695,7 @@ int main(void)
         cmocka_unit_test(a_sheet_is_a_parabola),
         cmocka_unit_test(a_ledge_throws_water_out_again),
         cmocka_unit_test(rivers_lie_level_beside_a_wall),
+        cmocka_unit_test(land_with_a_sill_drains),
         cmocka_unit_test(strands_fall_into_the_pool),
         cmocka_unit_test(water_bends_over_a_lip_as_one_sheet),
         cmocka_unit_test(feet_throw_up_spray),

@@ -237,10 +237,11 @@ static float sill_share(const Terrain *terrain, int32_t node)
     return 1.0f;
 }
 
-// Raises the beds above the lips of falls to their sills. After hollows are filled: the bed behind
-// a sill is one, and stays.
+// Raises the beds above the lips of falls to their sills, but for a notch along the river's middle,
+// as wide as it takes for the samples in it to touch: through it the bed behind drains.
 static bool raise_sills(const Terrain *terrain, HeightField *field, const Run *run)
 {
+    const float cell = fmaxf(field->cell.x, field->cell.y), notch = 0.72f * cell;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int row = 0; row < field->rows; row++) {
         for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
@@ -252,6 +253,7 @@ static bool raise_sills(const Terrain *terrain, HeightField *field, const Run *r
             if (away < 0.0f) {
                 float half = terrain->water->radius[node];
                 float more = terrain_bed_depth(half, half + away) - terrain_bed_depth(half, half);
+                more *= smoothstepf(notch, notch + cell, half + away);
                 field->height[i] += (1.0f - sill_share(terrain, node)) * more;
             }
         }

@@ -324,11 +324,13 @@ void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *s
     Vec3 slope = vec3(waves.slope.x, 0.0f, waves.slope.z);
     slope = vec3_scale(slope, m->pattern_depth);
     if (point->foam > 0.0f) {
-        const float wave = 1.1f, height = 0.1f; // m
+        const float wave = 1.1f, height = 0.16f; // m
         PatternOctaves heaves = pattern_octaves(point, wave, 5, 0.6f, 1.0f, 157);
         slope = vec3_madd(slope, height * point->foam, heaves.slope);
         Vec2 at = {point->object_position.x, point->object_position.z};
-        shade->foam = point->foam < 1.0f ? foam_share(point->foam, at, point->footprint) : 1.0f;
+        // Water wells up in boils, which push foam aside into the lows between them.
+        float cover = clampf(point->foam * (0.9f - 0.45f * heaves.value), 0.0f, 1.0f);
+        shade->foam = foam_share(cover, at, point->footprint);
         shade->color = vec3_lerp(shade->color, m->color2, shade->foam);
     }
     shade->normal = pattern_tilt(shade->normal, slope);
