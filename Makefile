@@ -64,6 +64,8 @@ $(OBJ)/render/%.c.o $(OUT)/ramify: private SAME_LTO := $(if $(LTO),PWD=/proc/sel
 $(OBJ)/render/%.c.o: CFLAGS += $(LTO) -ftree-slp-vectorize
 $(OBJ)/base/fft.c.o: CFLAGS += -fno-tree-vectorize
 $(OUT)/ramify $(OUT)/libramify.so $(OUT)/tests/bench/%: private LDFLAGS += $(LTO)
+# OpenVDB's templates take a third less time to compile with lines alone to debug by.
+$(OBJ)/shape/vdb_%.cpp.o: CXXFLAGS += -g1
 # TBB's headers cast addresses that are none.
 $(OBJ)/shape/vdb_%.cpp.o: CXXFLAGS += $(if $(filter fuzz,$(CONFIG)),-fno-sanitize=alignment)
 
