@@ -204,7 +204,8 @@ static bool judge_targets(const RamifyScene *scene, const double *values, Ramify
 
 // ---- scenes and files ----
 
-// The objects to measure, as entries of the scene's objects; NULL = out of memory. The caller frees.
+// The objects to measure, as entries of the scene's objects; NULL = out of memory. The caller
+// frees.
 static bool *wanted_objects(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
     int count = ramify_scene_object_count(scene);
