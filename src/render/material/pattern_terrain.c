@@ -330,7 +330,7 @@ void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *s
         Vec2 at = {point->object_position.x, point->object_position.z};
         // Water wells up in boils, which push foam aside into the lows between them.
         float cover = clampf(point->foam * (0.9f - 0.45f * heaves.value), 0.0f, 1.0f);
-        shade->foam = foam_share(cover, at, point->footprint);
+        shade->foam = point->foam < 1.0f ? foam_share(cover, at, point->footprint) : 1.0f;
         shade->color = vec3_lerp(shade->color, m->color2, shade->foam);
     }
     shade->normal = pattern_tilt(shade->normal, slope);
