@@ -277,6 +277,12 @@ static bool measure_scene(const Options *options, RamifyError *e)
     if (!scene) {
         return false;
     }
+    if (options->targets && target_count(scene) == 0) {
+        ramify_scene_free(scene);
+        return fail_in(e, options->operand, RAMIFY_BAD_INPUT,
+                       "--targets: the scene states no targets; add a list 'targets' or leave the "
+                       "option out");
+    }
     int count = 0;
     Subject *subjects = allocate(ramify_scene_object_count(scene), sizeof *subjects, e);
     double *values = allocate(target_count(scene), sizeof *values, e);

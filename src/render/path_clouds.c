@@ -64,8 +64,8 @@ static float lit_by_lamps(const Tracer *tracer, Vec3 p)
 // The share of a camera ray that clouds hide. *normal: the side from which they get thinner,
 // weighted by how much they hide, by what rain before them lets through, and by the light from
 // outside, which comes from a side: what glows from within has no form, and a denoiser would draw
-// that of the normals. It depends on the ray
-// alone, not on where a droplet scatters the path, so that it can guide a denoiser.
+// that of the normals. It depends on the ray alone, not on where a droplet scatters the path, so
+// that it can guide a denoiser.
 static float hidden(const Tracer *tracer, const CloudRay *ray, Vec3 *normal)
 {
     float distance, opacity = clouds_seen(tracer->clouds, ray, &distance);

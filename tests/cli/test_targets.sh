@@ -77,6 +77,9 @@ else
     echo "not ok only_objects_with_targets"
     cat "$out"
 fi
+printf 'objects: [{name: floor, ground: {grass_tufts: 0}}]\n' >"$folder/floor.yaml"
+measures no_targets 2 "$folder/floor.yaml" --targets
+says no_targets_hint "the scene states no targets"
 measures ground_too 0 "$folder/bush.yaml"
 says ground_has_a_header "floor (ground)"
 matches_line() { if grep -qE "$2" "$out"; then echo "ok $1"; else echo "not ok $1"; cat "$out"; fi; }

@@ -328,8 +328,11 @@ void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *s
         PatternOctaves heaves = pattern_octaves(point, wave, 5, 0.6f, 1.0f, 157);
         slope = vec3_madd(slope, height * point->foam, heaves.slope);
         Vec2 at = {point->object_position.x, point->object_position.z};
-        // Water wells up in boils, which push foam aside into the lows between them.
-        float cover = clampf(point->foam * (0.9f - 0.45f * heaves.value), 0.0f, 1.0f);
+        // Water wells up in boils, which push foam aside into the lows between them, but where all
+        // is white water.
+        float boils =
+            lerpf(0.9f - 0.45f * heaves.value, 1.0f, smoothstepf(0.96f, 1.0f, point->foam));
+        float cover = clampf(point->foam * boils, 0.0f, 1.0f);
         shade->foam = point->foam < 1.0f ? foam_share(cover, at, point->footprint) : 1.0f;
         shade->color = vec3_lerp(shade->color, m->color2, shade->foam);
     }
