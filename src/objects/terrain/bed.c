@@ -200,6 +200,13 @@ static float bed_at(const Terrain *terrain, int32_t node, float x, float z, floa
     return uneven_level_at(terrain, node, x, z, cell) - terrain_bed_depth(half, half + away);
 }
 
+// x and z of a sample.
+static Vec2 sample_at(const HeightField *field, int row, int column)
+{
+    return (Vec2){field->origin.x + (float)column * field->cell.x,
+                  field->origin.y + (float)row * field->cell.y};
+}
+
 static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
 {
     float reach = TERRAIN_STRAND * field->cell.x;
@@ -207,13 +214,12 @@ static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
     for (int row = 0; row < field->rows; row++) {
         for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
             int64_t i = (int64_t)row * field->columns + column;
-            float x = field->origin.x + (float)column * field->cell.x;
-            float z = field->origin.y + (float)row * field->cell.y;
+            Vec2 at = sample_at(field, row, column);
             int32_t node;
-            float away = trough_envelope_at(terrain->shore, x, z, &node);
+            float away = trough_envelope_at(terrain->shore, at.x, at.y, &node);
             if (away < reach) {
                 terrain->bank[i] = 1;
-                field->height[i] = bed_at(terrain, node, x, z, away, field->cell.x);
+                field->height[i] = bed_at(terrain, node, at.x, at.y, away, field->cell.x);
             }
         }
     }
@@ -246,10 +252,10 @@ static bool raise_sills(const Terrain *terrain, HeightField *field, const Run *r
     for (int row = 0; row < field->rows; row++) {
         for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
             int64_t i = (int64_t)row * field->columns + column;
-            float x = field->origin.x + (float)column * field->cell.x;
-            float z = field->origin.y + (float)row * field->cell.y;
+            Vec2 at = sample_at(field, row, column);
             int32_t node;
-            float away = terrain->bank[i] ? trough_envelope_at(terrain->shore, x, z, &node) : 0.0f;
+            float away =
+                terrain->bank[i] ? trough_envelope_at(terrain->shore, at.x, at.y, &node) : 0.0f;
             if (away < 0.0f) {
                 float half = terrain->water->radius[node];
                 float more = terrain_bed_depth(half, half + away) - terrain_bed_depth(half, half);
@@ -344,10 +350,9 @@ bool terrain_record_water(const Terrain *terrain, HeightField *field, const Run 
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int row = 0; row < field->rows; row++) {
         for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
-            float x = field->origin.x + (float)column * field->cell.x;
-            float z = field->origin.y + (float)row * field->cell.y;
+            Vec2 at = sample_at(field, row, column);
             float *water = &field->water[(int64_t)row * field->columns + column];
-            *water = water_over(terrain, field, *water, x, z);
+            *water = water_over(terrain, field, *water, at.x, at.y);
         }
     }
     return !run_is_cancelled(run) || run_cancel_error(e);
