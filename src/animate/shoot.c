@@ -87,9 +87,11 @@ static bool plan_output(Shooting *s, Error *e)
         s->pattern = memory_copy_string(s->params->output, e);
         return s->pattern;
     }
-    if (s->scene->film.width < 2 || s->scene->film.height < 2) {
+    int width = s->scene->film.width / s->scene->downsample;
+    int height = s->scene->film.height / s->scene->downsample;
+    if (width < 2 || height < 2) {
         return error_set(e, ERROR_INPUT, "a film of %d x %d pixels; it must have 2 x 2 at least",
-                         s->scene->film.width, s->scene->film.height);
+                         width, height);
     }
     char target[PATH_MAX];
     s->video = file_target(s->params->output, target, e) ? memory_copy_string(target, e) : NULL;
@@ -436,9 +438,10 @@ static bool make_film(Shooting *s, Error *e)
     }
     double start = run_seconds();
     char *part = frames_film(s->folder, e);
-    Video *video = part ? video_open(s->video, part, s->scene->film.width, s->scene->film.height,
-                                     turntable_fps(s->turntable), e)
-                        : NULL;
+    int width = s->scene->film.width / s->scene->downsample;
+    int height = s->scene->film.height / s->scene->downsample;
+    Video *video =
+        part ? video_open(s->video, part, width, height, turntable_fps(s->turntable), e) : NULL;
     free(part);
     bool sound = video && add_frames(s, video, e);
     bool done = video_close(video, sound, e);

@@ -63,6 +63,11 @@ bool check_film(const Mapping *mapping, void *params)
         return mapping_fail(mapping, "crop",
                             " is less than half a pixel wide or high; make it larger");
     }
+    if (film->width % scene->downsample || film->height % scene->downsample) {
+        return mapping_fail(mapping, "downsample",
+                            " is %d; it must divide the width of %d and the height of %d pixels",
+                            scene->downsample, film->width, film->height);
+    }
     return scene->png_depth == 8 || scene->png_depth == 16 ||
            mapping_fail(mapping, "png_depth", " is %d; it must be 8 or 16", scene->png_depth);
 }

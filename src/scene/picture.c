@@ -5,6 +5,7 @@
 #include "base/file_replace.h"
 #include "base/memory.h"
 #include "image/denoise.h"
+#include "image/downsample.h"
 #include "image/highlights.h"
 #include "image/oidn.h"
 #include "ramify.h"
@@ -234,12 +235,16 @@ Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const
     return display;
 }
 
+// display: of the film's size.
 static bool write_developed(const char *file, const Scene *scene, const Image *display,
                             const char *metadata, Error *e)
 {
-    return scene->png_depth == 16 && file_name_ends(file, ".png")
-               ? image_write_display16(file, display, metadata, e)
-               : image_write_display(file, display, metadata, e);
+    Image *shown = image_downsample(display, scene->downsample, e);
+    bool deep = scene->png_depth == 16 && file_name_ends(file, ".png");
+    bool done = shown && (deep ? image_write_display16(file, shown, metadata, e)
+                               : image_write_display(file, shown, metadata, e));
+    image_free(shown);
+    return done;
 }
 
 static bool write_display(const char *file, const Scene *scene, const Film *film, bool denoise,

@@ -45,7 +45,8 @@ bool picture_noise(const Scene *scene, const Film *film, double *noise, Error *e
 Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const Run *run,
                        Error *e);
 
-// Develops and writes a .png (of film.png_depth bits) or .jpg. denoise: as for picture_develop.
+// Develops, makes smaller (film.downsample) and writes a .png (of film.png_depth bits) or .jpg.
+// denoise: as for picture_develop.
 bool picture_write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
                            const Run *run, Error *e);
 
@@ -76,7 +77,8 @@ double picture_metered_stops(const Film *film, Error *e);
 // Radiance and alpha of a film: 4 * width * height floats.
 void picture_copy_rgba(const Film *film, float *rgba);
 
-// Writes an image of that kind, of the size of the scene's film: .exr unchanged, others developed.
+// Writes an image of that kind, of the size of the scene's film: .exr unchanged, others developed
+// and made smaller.
 bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba, Error *e);
 
 // width * height values, 0..1, as grey .png, .jpg or .exr.

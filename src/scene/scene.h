@@ -95,7 +95,8 @@ typedef struct Scene {
     Camera camera;
     FilmParams film;
     ToneParams tone;
-    int png_depth; // bits of a channel in PNGs: 8 or 16
+    int png_depth;  // bits of a channel in PNGs: 8 or 16
+    int downsample; // pixels of the film a side of a developed picture's pixel
     bool denoise;
     SceneDenoiser denoiser;
     RenderParams render;

@@ -43,6 +43,16 @@ bits() { # of a PNG's channel
 }
 yes eight_bits [ "$(bits scene.png)" = 8 ]
 yes sixteen_bits [ "$(bits ocio.png)" = 16 ]
+# A PNG has fewer pixels than its film, which the .exr keeps.
+big_endian() { od -An -tu1 -j"$2" -N4 "$1" | awk '{ print $3 * 256 + $4 }'; }
+check downsample 0 "$RAMIFY" render scene.yaml -q -o small.png --set film.downsample=4
+yes downsample_width [ "$(big_endian small.png 16)" = 12 ]
+yes downsample_height [ "$(big_endian small.png 20)" = 8 ]
+yes downsample_keeps_exr "$RAMIFY" compare small.exr scene.exr --max-rmse 0
+check downsample_again 0 "$RAMIFY" render small.exr -q -o again.png
+yes downsample_same "$RAMIFY" compare small.png again.png --max-rmse 0
+check downsample_odd 2 "$RAMIFY" render scene.yaml -q -o wrong.png --set film.downsample=5
+says downsample_odd_says err 'film.downsample is 5; it must divide the width of 48 and the height of 32 pixels'
 if command -v oiiotool >/dev/null; then
     oiiotool ocio.exr --ch R,G,B --colorconfig views.ocio --ociodisplay:from=linear Screen Bright -d uint16 -o peer.png
     oiiotool ocio.png --ch R,G,B -o own.png

@@ -161,6 +161,8 @@ static const Case scenes[] = {
     {TREE "camera: {up: [0, 0, 1]}\n",
      ":2:14: camera.up is zero or parallel to the line of sight; it must have another direction"},
     {TREE "film: {png_depth: 12}\n", ":2:19: film.png_depth is 12; it must be 8 or 16"},
+    {TREE "film: {width: 30, height: 20, downsample: 4}\n",
+     ":2:43: film.downsample is 4; it must divide the width of 30 and the height of 20 pixels"},
     {TREE "film: {crop: [0.5, 0, 0.5, 1]}\n",
      ":2:14: film.crop is empty; it must be [x0, y0, x1, y1] with x0 < x1, y0 < y1"},
     {TREE "film: {width: 2, height: 2, crop: [0, 0, 1, 0.2]}\n",
