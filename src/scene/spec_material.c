@@ -28,6 +28,7 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"leaf", PATTERN_LEAF},
                                     {"noise", PATTERN_NOISE},
                                     {"corallite", PATTERN_CORALLITE},
+                                    {"brain", PATTERN_BRAIN},
                                     {"youth", PATTERN_YOUTH},
                                     {"sand", PATTERN_SAND},
                                     {"mountain", PATTERN_MOUNTAIN},
@@ -155,7 +156,8 @@ static const Key MATERIAL_KEYS[] = {
          "soil and grass in patches; stone: broken faces, joints, minerals and stains; masonry: "
          "a wall of stones in courses; leaf: "
          "veins and blotches; noise: plain noise; corallite: "
-         "cups of a coral; youth: color2 where a branch still grows; sand: ripples of a sea "
+         "cups of a coral; brain: winding ridges of a brain coral, color2 in the valleys; youth: "
+         "color2 where a branch still grows; sand: ripples of a sea "
          "floor; mountain: rock in blocks between beds and joints (with a terrain's beds in their "
          "colours relative to their mean), scree, grass and snow; "
          "badlands: coloured strata; water: "

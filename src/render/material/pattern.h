@@ -49,6 +49,7 @@ void pattern_leaf(const Material *material, const SurfacePoint *point, PatternSh
 // The leaf's colours at its season: turned from the edge inward, or young.
 void pattern_season(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_corallite(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_brain(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_youth(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_hills(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_coast(const Material *material, const SurfacePoint *point, PatternShade *shade);

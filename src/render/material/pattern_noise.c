@@ -158,3 +158,93 @@ CellPoint noise_cells(Vec3 p, uint32_t seed)
                        points.hash[a / 8][a % 8], cell_point(&points, a),
                        points.hash[b / 8][b % 8]};
 }
+
+// What is left of a vector along a surface.
+static Vec3 along(Vec3 v, Vec3 normal)
+{
+    return vec3_madd(v, -vec3_dot(v, normal), normal);
+}
+
+// Takes distances as if the points lay on a surface; those farther off it give way to nearer ones.
+static void flatten(CellPoints *points, Vec3 normal)
+{
+    static const float depth = 0.2f; // what is left of the square of a distance off the surface
+    for (int i = 0; i < 4; i++) {
+        Float8 off = points->x[i] * normal.x + points->y[i] * normal.y + points->z[i] * normal.z;
+        points->distance[i] -= (1.0f - depth) * off * off;
+    }
+}
+
+CellPoint noise_cells_on(Vec3 p, Vec3 normal, uint32_t seed)
+{
+    CellPoints points;
+    find_cell_points(p, seed, &points);
+    flatten(&points, normal);
+    int own = 0;
+    for (int n = 1; n < 27; n++) {
+        if (points.distance[n / 8][n % 8] < points.distance[own / 8][own % 8]) {
+            own = n;
+        }
+    }
+    CellPoint cell = {.border = INFINITY,
+                      .cell = points.hash[own / 8][own % 8],
+                      .point = cell_point(&points, own)};
+    for (int n = 0; n < 27; n++) {
+        Vec3 apart = along(vec3_sub(cell.point, cell_point(&points, n)), normal);
+        float length = vec3_length(apart);
+        float gap = points.distance[n / 8][n % 8] - points.distance[own / 8][own % 8];
+        if (length > 0.05f && gap < 2.0f * length * cell.border) {
+            cell.border = 0.5f * gap / length;
+            cell.normal = vec3_scale(apart, 1.0f / length);
+            cell.next = points.hash[n / 8][n % 8];
+        }
+    }
+    return cell;
+}
+
+// A sum of complex waves and its slope.
+typedef struct WaveSum {
+    float re, im, weight;
+    Vec3 re_slope, im_slope;
+} WaveSum;
+
+// Adds the wave about a point (relative to the position), whose weight falls to 0 at `reach`.
+static void add_wave(WaveSum *sum, Vec3 point, uint32_t hash, Vec3 normal, float wavelength)
+{
+    static const float reach = 1.08f; // no point outside of the 27 cells is nearer
+    float near = 1.0f - vec3_dot(point, point) / (reach * reach);
+    Vec3 random =
+        vec3(noise_unit(hash, 1) - 0.5f, noise_unit(hash, 2) - 0.5f, noise_unit(hash, 3) - 0.5f);
+    Vec3 aside = along(random, normal);
+    float length = vec3_length(aside);
+    if (near <= 0.0f || length < 1e-4f) {
+        return;
+    }
+    float weight = near * near * near;
+    Vec3 fall = vec3_scale(point, 6.0f * near * near / (reach * reach)); // slope of the weight
+    Vec3 wave = vec3_scale(aside, 2.0f * PI_F / (wavelength * length));
+    float phase = 2.0f * PI_F * noise_unit(hash, 4) - vec3_dot(wave, point);
+    float re = cosf(phase), im = sinf(phase);
+    sum->re += weight * re;
+    sum->im += weight * im;
+    sum->weight += weight;
+    sum->re_slope = vec3_madd(vec3_madd(sum->re_slope, -weight * im, wave), re, fall);
+    sum->im_slope = vec3_madd(vec3_madd(sum->im_slope, weight * re, wave), im, fall);
+}
+
+Stripes noise_stripes_on(Vec3 p, Vec3 normal, float wavelength, uint32_t seed)
+{
+    CellPoints points;
+    find_cell_points(p, seed, &points);
+    WaveSum sum = {0};
+    for (int n = 0; n < 27; n++) {
+        add_wave(&sum, cell_point(&points, n), points.hash[n / 8][n % 8], normal, wavelength);
+    }
+    float square = sum.re * sum.re + sum.im * sum.im, length = sqrtf(square);
+    if (square < 1e-12f) {
+        return (Stripes){.cosine = 1.0f};
+    }
+    Vec3 turn = vec3_sub(vec3_scale(sum.im_slope, sum.re), vec3_scale(sum.re_slope, sum.im));
+    return (Stripes){sum.re / length, sum.im / length, length / sum.weight,
+                     along(vec3_scale(turn, 1.0f / square), normal)};
+}

@@ -23,6 +23,22 @@ typedef struct CellPoint {
 
 CellPoint noise_cells(Vec3 p, uint32_t seed);
 
+// Cells on a surface with a unit normal there: the points near it are taken as if they lay on it,
+// so that no cell is the sliver that a cut through a solid one may be. About 1.2 cells a unit
+// square; border, normal: along the surface.
+CellPoint noise_cells_on(Vec3 p, Vec3 normal, uint32_t seed);
+
+// Winding stripes on a surface with a unit normal there (phasor noise, Tricard et al. 2019): waves
+// of one length in random directions along it, about random points.
+typedef struct Stripes {
+    float cosine, sine; // of the phase, which grows by 2 pi from a stripe to the next
+    float strength;     // 0..1: near 0 where stripes end or fork, and the phase has no value
+    Vec3 gradient;      // of the phase, along the surface
+} Stripes;
+
+// wavelength: below 0.6, in units of p.
+Stripes noise_stripes_on(Vec3 p, Vec3 normal, float wavelength, uint32_t seed);
+
 // Hash of a unit square of a plane.
 uint32_t noise_square(int x, int z, uint32_t seed);
 

@@ -1,0 +1,152 @@
+// Cells and stripes on surfaces, and the corals' patterns made of them.
+#include "render/material/pattern.h"
+
+#include "base/random.h"
+#include "render/material/pattern_noise.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static Vec3 random_vector(uint64_t key, float size)
+{
+    return vec3(random_range(random_key(key, 0), -size, size),
+                random_range(random_key(key, 1), -size, size),
+                random_range(random_key(key, 2), -size, size));
+}
+
+// A position, a surface through it and a unit direction along that.
+typedef struct Place {
+    Vec3 p, normal, along;
+} Place;
+
+static Place random_place(uint64_t i)
+{
+    Place place = {.p = random_vector(i, 30.0f)};
+    place.normal = vec3_normalize(random_vector(i + 100000, 1.0f));
+    Vec3 aside = random_vector(i + 200000, 1.0f);
+    place.along = vec3_normalize(vec3_madd(aside, -vec3_dot(aside, place.normal), place.normal));
+    return place;
+}
+
+// The border is where walking toward it enters the next cell, and no direction leaves the cell
+// before.
+static void test_cells_on(void **state)
+{
+    (void)state;
+    int entered = 0, kept = 0;
+    const int count = 4000;
+    for (uint64_t i = 0; i < (uint64_t)count; i++) {
+        Place at = random_place(i);
+        CellPoint cell = noise_cells_on(at.p, at.normal, 5);
+        assert_true(cell.border >= 0.0f && cell.border < 1.0f);
+        assert_float_equal(vec3_length(cell.normal), 1.0f, 1e-3f);
+        assert_float_equal(vec3_dot(cell.normal, at.normal), 0.0f, 1e-3f);
+        Vec3 over = vec3_madd(at.p, -(cell.border + 2e-3f), cell.normal);
+        entered += noise_cells_on(over, at.normal, 5).cell == cell.next;
+        Vec3 before = vec3_madd(at.p, 0.98f * cell.border, at.along);
+        kept += noise_cells_on(before, at.normal, 5).cell == cell.cell;
+    }
+    assert_true(entered > count * 99 / 100);
+    assert_true(kept > count * 99 / 100);
+}
+
+// Within a cell the border comes nearer by no more than one walks: a rim drawn along it is whole.
+static void test_cells_on_have_no_steps(void **state)
+{
+    (void)state;
+    const float step = 0.01f;
+    for (uint64_t i = 0; i < 20000; i++) {
+        Place at = random_place(i);
+        CellPoint a = noise_cells_on(at.p, at.normal, 5);
+        CellPoint b = noise_cells_on(vec3_madd(at.p, step, at.along), at.normal, 5);
+        assert_true(a.cell != b.cell || fabsf(a.border - b.border) < 1.02f * step);
+    }
+}
+
+// The gradient is that of the phase, and stripes are a wavelength apart.
+static void test_stripes(void **state)
+{
+    (void)state;
+    double sum = 0.0;
+    int count = 0;
+    for (uint64_t i = 0; i < 4000; i++) {
+        Place at = random_place(i);
+        const float h = 1e-3f, wavelength = 0.4f;
+        Stripes s = noise_stripes_on(at.p, at.normal, wavelength, 7);
+        assert_float_equal(s.cosine * s.cosine + s.sine * s.sine, 1.0f, 1e-4f);
+        assert_true(s.strength >= 0.0f && s.strength < 1.0001f);
+        if (s.strength < 0.1f) {
+            continue;
+        }
+        Stripes a = noise_stripes_on(vec3_madd(at.p, -h, at.along), at.normal, wavelength, 7);
+        Stripes b = noise_stripes_on(vec3_madd(at.p, h, at.along), at.normal, wavelength, 7);
+        float turn =
+            atan2f(b.sine * a.cosine - b.cosine * a.sine, b.cosine * a.cosine + b.sine * a.sine);
+        float length = vec3_length(s.gradient);
+        assert_float_equal(turn / (2.0f * h), vec3_dot(s.gradient, at.along),
+                           0.3f + 0.03f * length);
+        sum += (double)length;
+        count++;
+    }
+    assert_true(count > 3000);
+    assert_float_equal((float)(sum / count), 2.0f * PI_F / 0.4f, 2.5f);
+}
+
+static PatternShade shade_at(const Material *m, Vec3 p, Vec3 normal)
+{
+    SurfacePoint point = {.position = p,
+                          .object_position = p,
+                          .normal = normal,
+                          .geometric_normal = normal,
+                          .birth = 0.0f,
+                          .footprint = 1e-6f};
+    PatternShade shade = {.color = m->color, .normal = normal};
+    pattern_apply(m, &point, &shade);
+    return shade;
+}
+
+// Ridges have the colour, valleys color2; normals lean, and from afar both fade into their mean.
+static void test_brain(void **state)
+{
+    (void)state;
+    Material m = {.color = vec3(1, 0, 0),
+                  .color2 = vec3(0, 0, 1),
+                  .pattern = PATTERN_BRAIN,
+                  .pattern_scale = 0.01f,
+                  .pattern_depth = 0.003f};
+    int ridges = 0, valleys = 0, leaning = 0;
+    for (uint64_t i = 0; i < 2000; i++) {
+        Place at = random_place(i);
+        PatternShade shade = shade_at(&m, vec3_scale(at.p, 0.02f), at.normal);
+        float red = shade.color.x / fmaxf(shade.color.x + shade.color.z, 1e-6f);
+        ridges += red > 0.9f;
+        valleys += red < 0.1f;
+        assert_float_equal(vec3_length(shade.normal), 1.0f, 1e-3f);
+        leaning += vec3_dot(shade.normal, at.normal) < 0.9f;
+    }
+    assert_in_range(ridges, 600, 1500);
+    assert_in_range(valleys, 300, 1000);
+    assert_true(leaning > 200);
+    SurfacePoint far = {
+        .normal = vec3(0, 1, 0), .geometric_normal = vec3(0, 1, 0), .footprint = 1.0f};
+    PatternShade shade = {.color = m.color, .normal = far.normal};
+    pattern_apply(&m, &far, &shade);
+    assert_float_equal(vec3_dot(shade.normal, far.normal), 1.0f, 1e-6f);
+    assert_true(shade.color.x > 0.2f && shade.color.z > 0.2f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cells_on),
+        cmocka_unit_test(test_cells_on_have_no_steps),
+        cmocka_unit_test(test_stripes),
+        cmocka_unit_test(test_brain),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
