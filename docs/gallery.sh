@@ -265,7 +265,7 @@ species_rows() {
 }
 species_rows species
 species_rows species-winter
-still ivy-wall ivy-wall
+fine ivy-wall ivy-wall 6
 still olive-trunk olive-trunk
 still pine-rock pine-rock
 still leaves-sun leaves-sun
