@@ -9,64 +9,75 @@
 
 // ---- lakes
 
-// How the cells around a place are covered by lakes, and the first of those.
-typedef struct LakeAround {
-    int32_t lake; // -1 = none
-    bool covers;  // are all corners of all cells that the place touches under its water?
-    bool ends;    // does the place touch a cell without a corner under water?
-} LakeAround;
-
-// Corners of a cell under water; *lake: that of the first, if it was -1.
-static int wet_corners(const TileWater *water, int64_t column, int64_t row, int32_t *lake)
+// The lake that wets a cell, as the water is drawn (lake_water.c); -1 = none. *wet: its corners
+// under water.
+static int32_t lake_of(const TileWater *water, int64_t column, int64_t row, int *wet)
 {
+    static const int CORNER[4][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
     const HeightField *field = water->field;
-    int count = 0;
+    int32_t lake = -1;
+    *wet = 0;
     for (int k = 0; k < 4; k++) {
-        int64_t c = column + k % 2, r = row + k / 2;
+        int64_t c = column + CORNER[k][0], r = row + CORNER[k][1];
         bool within = c >= 0 && r >= 0 && c < field->columns && r < field->rows;
         int32_t label = within ? water->terrain->lakes->label[r * field->columns + c] : -1;
-        count += label >= 0;
-        *lake = *lake < 0 ? label : *lake;
+        *wet += label >= 0;
+        lake = lake < 0 ? label : lake;
     }
-    return count;
+    return lake;
 }
 
-// A place on an edge of cells touches both, so that tiles agree there.
-static LakeAround lake_around(const TileWater *water, const TileSample *sample)
+// The cells around a place: those that it touches, one more on an edge, so that tiles agree there,
+// and those beside these.
+typedef struct CellsAround {
+    int32_t lake[16], touched; // touched: the lake of the cells that it touches; -1 = not one alone
+    int count;
+    bool covers; // are all corners of the cells that it touches under water?
+} CellsAround;
+
+static CellsAround cells_around(const TileWater *water, const TileSample *sample)
 {
     int64_t first[2] = {(int64_t)ceil(sample->u) - 1, (int64_t)ceil(sample->v) - 1};
     int64_t last[2] = {(int64_t)floor(sample->u), (int64_t)floor(sample->v)};
-    LakeAround around = {.lake = -1, .covers = true};
+    CellsAround around = {.touched = -2, .covers = true};
     for (int64_t row = first[1] - 1; row <= last[1] + 1; row++) {
         for (int64_t column = first[0] - 1; column <= last[0] + 1; column++) {
-            int wet = wet_corners(water, column, row, &around.lake);
-            bool touches =
-                column >= first[0] && column <= last[0] && row >= first[1] && row <= last[1];
-            around.covers = around.covers && (!touches || wet == 4);
-            around.ends = around.ends || (touches && wet == 0);
+            int wet;
+            int32_t lake = lake_of(water, column, row, &wet);
+            around.lake[around.count++] = lake;
+            if (column >= first[0] && column <= last[0] && row >= first[1] && row <= last[1]) {
+                bool same = around.touched == -2 || around.touched == lake;
+                around.touched = same ? lake : -1;
+                around.covers = around.covers && wet == 4;
+            }
         }
     }
     return around;
 }
 
-// Under all of a cell of a lake, the ground keeps half of its depth; in a cell beside those that
-// touch the lake, which has no water, half of its height above it. Between them the shore is where
-// the finer ground has it.
+// Under all of a cell of a lake, the ground keeps half of its depth; where the water ends, and in
+// the cells beside those, half of its height above it. Between them the shore is where the finer
+// ground has it.
 static float shaped_by_lakes(const TileWater *water, const TileSample *sample, float height)
 {
-    if (!water->terrain->lakes) {
+    const float close = 0.01f; // m: outlets are as high as the water
+    const Lakes *lakes = water->terrain->lakes;
+    if (!lakes) {
         return height;
     }
-    LakeAround around = lake_around(water, sample);
-    if (around.lake < 0 || !(around.covers || around.ends)) {
-        return height;
+    CellsAround around = cells_around(water, sample);
+    float coarse = height_field_at(water->field, sample->at.x, sample->at.y);
+    if (around.touched >= 0) {
+        float bed = 0.5f * (coarse + lakes->lake[around.touched].level);
+        return around.covers ? fminf(height, bed) : height;
     }
-    float level = water->terrain->lakes->lake[around.lake].level;
-    float half = 0.5f * (height_field_at(water->field, sample->at.x, sample->at.y) + level);
-    if (around.covers) {
-        return fminf(height, half);
+    for (int k = 0; k < around.count; k++) {
+        float level = around.lake[k] >= 0 ? lakes->lake[around.lake[k]].level : INFINITY;
+        if (coarse > level - close) {
+            height = fmaxf(height, fmaxf(level, 0.5f * (coarse + level)));
+        }
     }
-    return half >= level ? fmaxf(height, half) : height;
+    return height;
 }
 
 // ---- rivers

@@ -85,6 +85,20 @@ typedef struct Ribbons {
     int64_t vertices, faces;
 } Ribbons;
 
+// The land at a place of a shore; of tiles, whose cells may be finer than the river's rows, the
+// lowest up to the rows beside it.
+static float shore_at(const Ribbons *r, Vec3 p, Vec3 across)
+{
+    enum { EACH = 6 }; // places to each side; rows are up to a cell apart, outside of bends
+    float lowest = drawn_land_at(r->land, p.x, p.z), step = r->field->cell.x / EACH;
+    for (int k = 1; r->land->mesh && k <= EACH; k++) {
+        float x = step * (float)k * across.z, z = -step * (float)k * across.x;
+        lowest = fminf(lowest, drawn_land_at(r->land, p.x + x, p.z + z));
+        lowest = fminf(lowest, drawn_land_at(r->land, p.x - x, p.z - z));
+    }
+    return lowest;
+}
+
 // A vertex `side` times half the width from the middle: at the river's level, but in cascades,
 // which the cells resolve poorly, always on the land; in pools, below the wall of a fall, under it.
 // Outermost vertices, beyond 1, are below the shore.
@@ -95,13 +109,14 @@ static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half,
     Vec3 p = vec3_madd(middle, side * half, across);
     p.x = clampf(p.x, -border, border);
     p.z = clampf(p.z, -border, border);
-    float land = drawn_land_at(r->land, p.x, p.z), film = terrain_bed_depth(half, half);
+    float film = terrain_bed_depth(half, half);
     bool pool = r->terrain->flow[node].at_fall;
     if (fabsf(side) > 1.0f) {
-        p.y = land - film;
+        p.y = shore_at(r, p, across) - film;
         p.y = pool && p.y > middle.y ? middle.y : p.y;
         return p;
     }
+    float land = drawn_land_at(r->land, p.x, p.z);
     float depth = terrain_bed_depth(half, fabsf(side) * half);
     float least = pool ? fminf(land + 0.5f * film, middle.y) : land + 0.5f * film;
     p.y = clampf(middle.y, least, land + depth + film);
