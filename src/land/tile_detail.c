@@ -55,9 +55,7 @@ bool tile_refine(TileWindow *fine, const TileWindow *coarse, const Run *run, Err
 // The index of the sample that a mirrored or repeated one stands for.
 static int64_t inside(int64_t index, const TileDetail *detail)
 {
-    int64_t period = detail->periodic ? detail->period : 2 * detail->period;
-    int64_t i = (index % period + period) % period;
-    return i > detail->period ? period - i : i;
+    return tile_folded(index, detail->period, detail->periodic);
 }
 
 static float steepness(const float *h, int64_t columns, float cell)

@@ -31,6 +31,15 @@ static inline int64_t tile_half(int64_t index)
     return index >> 1;
 }
 
+// What an index along an axis of `cells` cells stands for: beyond them, of the cells mirrored or
+// repeated.
+static inline int64_t tile_folded(int64_t index, int64_t cells, bool periodic)
+{
+    int64_t period = periodic ? cells : 2 * cells;
+    int64_t i = (index % period + period) % period;
+    return i > cells ? period - i : i;
+}
+
 // Fills a window of twice the density from one that has the samples around it: odd samples by four
 // neighbours (Deslauriers and Dubuc 1989), so even ones keep their values.
 bool tile_refine(TileWindow *fine, const TileWindow *coarse, const Run *run, Error *e);

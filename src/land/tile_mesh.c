@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "land/height_mesh.h"
+#include "land/tile_detail.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -50,17 +51,28 @@ static float distance_to(const Tiling *t, int column, int row)
     return sqrtf(dx * dx + dy * dy + dz * dz);
 }
 
+// Is a tile to be drawn with the world's own cells at least?
+static bool is_whole(const Tiling *t, int column, int row)
+{
+    const TileShaping *shaping = t->view->shaping;
+    int64_t count = t->grid->count; // the tile's middle, in half tiles
+    int64_t c = tile_folded(2 * (int64_t)column + 1, 2 * count, t->world->periodic) / 2;
+    int64_t r = tile_folded(2 * (int64_t)row + 1, 2 * count, t->world->periodic) / 2;
+    return shaping && shaping->whole[r * count + c] != 0;
+}
+
 static int cells_of(const Tiling *t, int column, int row)
 {
     const TileGrid *grid = t->grid;
-    int cells = grid->cells;
+    int cells = grid->cells, own = (t->world->columns - 1) / grid->count;
+    own = own > TILE_LEAST_DRAWN ? own : TILE_LEAST_DRAWN;
     if (!t->view->eye) {
-        int own = (t->world->columns - 1) / grid->count;
-        return own > TILE_LEAST_DRAWN ? own : TILE_LEAST_DRAWN;
+        return own;
     }
+    int least = is_whole(t, column, row) ? own : TILE_LEAST_DRAWN;
     double most = (double)t->view->cell * (double)distance_to(t, column, row);
     double cell = 2.0 * cell_size(t);
-    while (cells > TILE_LEAST_DRAWN && cell <= most) {
+    while (cells > least && cell <= most) {
         cells /= 2;
         cell *= 2.0;
     }
@@ -110,11 +122,35 @@ static Vec3 place_of(const Tiling *t, const Tile *tile, int column, int row, flo
     int64_t z = (int64_t)tile->row * t->grid->cells + row * each;
     Vec3 p = vec3((float)((double)t->world->origin.x + cell_size(t) * (double)x), height,
                   (float)((double)t->world->origin.y + cell_size(t) * (double)z));
-    if (t->view->eye) {
-        float dx = p.x - t->view->eye->x, dz = p.z - t->view->eye->z;
-        p.y -= t->view->curve * (dx * dx + dz * dz);
-    }
+    p.y -= tile_view_sinks(t->view, p.x, p.z);
     return p;
+}
+
+float tile_view_sinks(const TileView *view, float x, float z)
+{
+    float dx = view->eye ? x - view->eye->x : 0.0f, dz = view->eye ? z - view->eye->z : 0.0f;
+    return view->curve * (dx * dx + dz * dz);
+}
+
+// Shapes the samples of a tile and of its margin of one, made with `cells` a side.
+static void shape_field(const Tiling *t, const Tile *tile, int cells, HeightField *field)
+{
+    const HeightField *world = t->world;
+    const TileShaping *shaping = t->view->shaping;
+    int64_t own = world->columns - 1, all = (int64_t)t->grid->count * cells;
+    double cell = (double)world->cell.x * (double)own / (double)all;
+    for (int64_t i = 0; shaping && i < height_field_count(field); i++) {
+        int64_t x = (int64_t)tile->column * cells + i % field->columns - 1;
+        int64_t z = (int64_t)tile->row * cells + i / field->columns - 1;
+        double u = (double)tile_folded(x, all, world->periodic);
+        double v = (double)tile_folded(z, all, world->periodic);
+        TileSample sample = {.at = {(float)((double)world->origin.x + cell * u),
+                                    (float)((double)world->origin.y + cell * v)},
+                             .u = u * (double)own / (double)all,
+                             .v = v * (double)own / (double)all,
+                             .cell = (float)cell};
+        field->height[i] = shaping->height(shaping->data, &sample, field->height[i]);
+    }
 }
 
 // Tiles coarser than the world leave some of its samples out.
@@ -125,6 +161,9 @@ static bool fill_tile(const Tiling *t, Tile *tile, const Run *run, Error *e)
     grid.cells = tile->cells > own ? tile->cells : own;
     HeightField *field = tile_land_around(t->world, &grid, tile->column, tile->row, 1, run, e);
     bool done = field && make_room(tile, e);
+    if (done) {
+        shape_field(t, tile, grid.cells, field);
+    }
     int each = grid.cells / tile->cells, side = tile->cells + 1;
     for (int i = 0; done && i < side * side; i++) {
         int column = i % side, row = i / side;
@@ -323,11 +362,32 @@ static Mesh *make_mesh(Tiling *t, const Run *run, Error *e)
     return mesh;
 }
 
+static bool tell_places(const Tiling *t, const Mesh *mesh, TilePlaces *places, Error *e)
+{
+    int64_t count = (int64_t)t->side * t->side;
+    double side = cell_size(t) * (double)t->grid->cells, first = (double)t->first;
+    *places = (TilePlaces){.origin = {(double)t->world->origin.x + side * first,
+                                      (double)t->world->origin.y + side * first},
+                           .side = side,
+                           .count = t->side,
+                           .tile = memory_alloc(count, sizeof *places->tile, e)};
+    for (int64_t i = 0; places->tile && i < count; i++) {
+        const Tile *tile = &t->tile[i];
+        int64_t end = i + 1 < count ? tile[1].first_face : mesh->face_count;
+        places->tile[i] = (DrawnTile){tile->cells, tile->first_face, end - tile->first_face};
+    }
+    return places->tile;
+}
+
 Mesh *tile_mesh_new(const HeightField *world, const TileGrid *grid, const TileView *view,
-                    const Run *run, Error *e)
+                    TilePlaces *places, const Run *run, Error *e)
 {
     Tiling t = tiling_of(world, grid, view);
     Mesh *mesh = fill_tiles(&t, run, e) ? make_mesh(&t, run, e) : NULL;
+    if (mesh && places && !tell_places(&t, mesh, places, e)) {
+        mesh_free(mesh);
+        mesh = NULL;
+    }
     tiling_clear(&t);
     return mesh;
 }

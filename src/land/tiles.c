@@ -9,9 +9,7 @@
 // The world's sample that stands for any index along an axis.
 static int inside(const HeightField *world, int64_t index)
 {
-    int64_t cells = world->columns - 1, period = world->periodic ? cells : 2 * cells;
-    int64_t i = (index % period + period) % period;
-    return (int)(i > cells ? period - i : i);
+    return (int)tile_folded(index, world->columns - 1, world->periodic);
 }
 
 static TileWindow window_of(int64_t x, int64_t z, int64_t columns, int64_t rows)

@@ -8,6 +8,7 @@
 #include "land/height_maps.h"
 #include "land/height_mesh.h"
 #include "mesh/geometry.h"
+#include "objects/terrain/drawn.h"
 #include "objects/terrain/spray.h"
 #include "objects/terrain/white_water.h"
 
@@ -350,15 +351,16 @@ static void a_ledge_throws_water_out_again(void **state)
         float z = v.field->origin.y + v.field->cell.y * (float)(i / (CELLS + 1));
         v.field->height[i] = z < 0.0f ? 30.0f : z < 6.0f ? 16.0f : 0.0f;
     }
+    DrawnLand land = {.field = v.field};
     FallPath path = {
-        .land = v.field, .way = {0.0f, 0.0f, 1.0f}, .level = 1.0f, .film = 0.05f, .step = 0.02f};
+        .land = &land, .way = {0.0f, 0.0f, 1.0f}, .level = 1.0f, .film = 0.05f, .step = 0.02f};
     Vec3 place[MOST];
     int count =
         terrain_fall_path(&path, vec3(0.0f, 30.1f, -1.0f), vec3(0.0f, 0.0f, 1.5f), place, MOST);
     bool slid = false;
     for (int i = 0; i < count; i++) {
-        float land = height_mesh_finest_at(v.field, place[i].x, place[i].z);
-        assert_true(place[i].y > land - 0.05f || place[i].y == path.level);
+        float ground = height_mesh_finest_at(v.field, place[i].x, place[i].z);
+        assert_true(place[i].y > ground - 0.05f || place[i].y == path.level);
         slid = slid || (fabsf(place[i].y - 16.05f) < 0.02f && place[i].z > 2.0f);
         assert_true(i == 0 || place[i].z >= place[i - 1].z);
     }
@@ -368,8 +370,7 @@ static void a_ledge_throws_water_out_again(void **state)
     drop_valley(&v);
 }
 
-typedef bool AddParts(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                      Error *e);
+typedef bool AddParts(const DrawnLand *land, const Placing *placing, Error *e);
 
 // water: strands become white water below the lip.
 static Geometry parts_by(AddParts *add, const Valley *v, bool water, int threads)
@@ -385,7 +386,8 @@ static Geometry parts_by(AddParts *add, const Valley *v, bool water, int threads
                        .material = material,
                        .keep_spray = true,
                        .keep_water = water};
-    assert_true(add(&v->terrain, v->field, &placing, &e));
+    DrawnLand land = {.terrain = &v->terrain, .field = v->field};
+    assert_true(add(&land, &placing, &e));
     return geometry;
 }
 

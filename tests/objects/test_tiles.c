@@ -187,7 +187,7 @@ static Mesh *draw(const HeightField *world, const TileView *view, int threads)
 {
     Error e = {0};
     Run run = run_with(threads);
-    Mesh *mesh = tile_mesh_new(world, &DRAWN, view, &run, &e);
+    Mesh *mesh = tile_mesh_new(world, &DRAWN, view, NULL, &run, &e);
     if (!mesh) {
         fail_msg("%s", e.message);
     }
@@ -411,7 +411,7 @@ static void a_terrain_is_drawn_of_its_tiles(void **state)
     TileGrid grid = {.count = 8, .cells = 32, .detail = 1.0f, .seed = 4};
     TileView view = {
         .eye = &own_eye, .cell = 0.032f, .beyond = 1, .curve = (float)(0.5 / 6371000.0)};
-    Mesh *mesh = tile_mesh_new(world, &grid, &view, &run, &e), *drawn = geometry.part[0].mesh;
+    Mesh *mesh = tile_mesh_new(world, &grid, &view, NULL, &run, &e), *drawn = geometry.part[0].mesh;
     assert_int_equal(drawn->vertex_count, mesh->vertex_count);
     for (int64_t i = 0; i < mesh->vertex_count; i++) {
         Vec3 p = vec3_add(mesh->position[i], params.position), q = drawn->position[i];

@@ -225,9 +225,8 @@ static const Case scenes[] = {
      ":1:73: objects.a.terrain.tiles.drawn is true; that needs at most as many tiles a side as the "
      "terrain has cells, 16, not 32"},
     {"objects: [{name: a, terrain: {form: delta, tiles: {count: 16, drawn: true}}}]\n",
-     ":1:70: objects.a.terrain.tiles.drawn is true; land with water, lakes, a forest or a map of "
-     "its own, and forms braided, meander, delta and coast, cannot be drawn of tiles: leave them "
-     "out, or scatter the forest on the land"},
+     ":1:70: objects.a.terrain.tiles.drawn is true; forms braided, meander, delta and coast, and "
+     "a map (show: map or tree), cannot be drawn of tiles"},
     {"objects: [{name: a, terrain: {form: dunes, lakes: {count: 3}}}]\n",
      ":1:59: objects.a.terrain.lakes.count is 3; forms braided, meander, delta, dunes and coast "
      "have no "

@@ -192,8 +192,6 @@ static float uneven_level_at(const Terrain *terrain, int32_t node, float x, floa
     return level_at(water, other, at_x, at_z);
 }
 
-// The height of the bed at a place `away` from the water's edge (negative: in the water). Beside
-// the water the land is as low as at its edge.
 static float bed_at(const Terrain *terrain, int32_t node, float x, float z, float away, float cell)
 {
     float half = terrain->water->radius[node];
@@ -243,11 +241,27 @@ static float sill_share(const Terrain *terrain, int32_t node)
     return 1.0f;
 }
 
-// Raises the beds above the lips of falls to their sills, but for a notch along the river's middle,
-// as wide as it takes for the samples in it to touch: through it the bed behind drains.
+// m by which the bed above the lip of a fall is raised to its sill, but for a notch along the
+// river's middle, as wide as it takes for the samples in it to touch: through it the bed behind
+// drains.
+static float sill_at(const Terrain *terrain, int32_t node, float away, float cell)
+{
+    const float notch = 0.72f * cell;
+    float half = terrain->water->radius[node];
+    float more = terrain_bed_depth(half, half + away) - terrain_bed_depth(half, half);
+    more *= smoothstepf(notch, notch + cell, half + away);
+    return (1.0f - sill_share(terrain, node)) * more;
+}
+
+float terrain_bed_at(const Terrain *terrain, int32_t node, float x, float z, float away, float cell)
+{
+    float sill = away < 0.0f ? sill_at(terrain, node, away, cell) : 0.0f;
+    return bed_at(terrain, node, x, z, away, cell) + sill;
+}
+
 static bool raise_sills(const Terrain *terrain, HeightField *field, const Run *run)
 {
-    const float cell = fmaxf(field->cell.x, field->cell.y), notch = 0.72f * cell;
+    const float cell = fmaxf(field->cell.x, field->cell.y);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int row = 0; row < field->rows; row++) {
         for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
@@ -257,10 +271,7 @@ static bool raise_sills(const Terrain *terrain, HeightField *field, const Run *r
             float away =
                 terrain->bank[i] ? trough_envelope_at(terrain->shore, at.x, at.y, &node) : 0.0f;
             if (away < 0.0f) {
-                float half = terrain->water->radius[node];
-                float more = terrain_bed_depth(half, half + away) - terrain_bed_depth(half, half);
-                more *= smoothstepf(notch, notch + cell, half + away);
-                field->height[i] += (1.0f - sill_share(terrain, node)) * more;
+                field->height[i] += sill_at(terrain, node, away, cell);
             }
         }
     }

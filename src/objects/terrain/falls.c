@@ -8,8 +8,7 @@
 #include "base/memory.h"
 #include "base/noise.h"
 #include "base/random.h"
-#include "land/height_mesh.h"
-#include "objects/terrain/internal.h"
+#include "objects/terrain/drawn.h"
 #include "objects/terrain/spray.h"
 #include "objects/terrain/white_water.h"
 
@@ -28,11 +27,11 @@ float terrain_lip_speed(float discharge, float half)
 // ---- the path of a strand
 
 // Unit normal of the land.
-static Vec3 land_normal(const HeightField *land, float x, float z)
+static Vec3 land_normal(const DrawnLand *land, float x, float z)
 {
-    float step = 0.25f * land->cell.x;
-    float dx = height_mesh_finest_at(land, x + step, z) - height_mesh_finest_at(land, x - step, z);
-    float dz = height_mesh_finest_at(land, x, z + step) - height_mesh_finest_at(land, x, z - step);
+    float step = 0.25f * land->field->cell.x;
+    float dx = drawn_land_at(land, x + step, z) - drawn_land_at(land, x - step, z);
+    float dz = drawn_land_at(land, x, z + step) - drawn_land_at(land, x, z - step);
     return vec3_normalize(vec3(-dx, 2.0f * step, -dz));
 }
 
@@ -40,7 +39,7 @@ static Vec3 land_normal(const HeightField *land, float x, float z)
 static void slide(const FallPath *path, Vec3 *p, Vec3 *v)
 {
     const float rubs = 1.5f, least = 0.4f; // 1/s: how fast rock slows it; m/s
-    float land = height_mesh_finest_at(path->land, p->x, p->z) + path->film;
+    float land = drawn_land_at(path->land, p->x, p->z) + path->film;
     if (p->y >= land) {
         return;
     }
@@ -100,7 +99,7 @@ enum {
 
 typedef struct FallMesher {
     const Terrain *terrain;
-    const HeightField *field;
+    const DrawnLand *land;
     int32_t lip;
     float level; // m, of the pool
     Vec3 way, across;
@@ -122,8 +121,8 @@ static Vec3 strand_start(const FallMesher *f, float side)
 {
     Vec3 middle = f->terrain->water->position[f->lip];
     Vec3 p = vec3_madd(middle, side * f->half, f->across);
-    p = vec3_madd(p, -0.3f * f->field->cell.x, f->way);
-    float over = height_mesh_finest_at(f->field, p.x, p.z) + terrain_bed_depth(f->half, f->half);
+    p = vec3_madd(p, -0.3f * f->land->field->cell.x, f->way);
+    float over = drawn_land_at(f->land, p.x, p.z) + terrain_bed_depth(f->half, f->half);
     p.y = fmaxf(middle.y, over);
     return p;
 }
@@ -155,7 +154,7 @@ static int path_from(const FallMesher *f, float side, Vec3 velocity, Vec3 place[
 {
     Vec3 start = strand_start(f, 0.97f * side);
     float height = start.y > f->level ? start.y - f->level : 0.0f;
-    FallPath path = {.land = f->field,
+    FallPath path = {.land = f->land,
                      .way = f->way,
                      .level = f->level,
                      .film = 0.2f * terrain_bed_depth(f->half, f->half),
@@ -351,7 +350,7 @@ static Mesh *fall_mesh(FallMesher *f, const int32_t *main, Error *e)
         f->mesh->vertex_count = f->vertices;
         f->mesh->face_count = f->faces;
     }
-    if (f->mesh && !mesh_compute_normals(f->mesh, e)) {
+    if (f->mesh && !(mesh_compute_normals(f->mesh, e) && drawn_move(f->land, f->mesh, e))) {
         mesh_free(f->mesh);
         return NULL;
     }
@@ -362,7 +361,7 @@ static int strand_in_scene(const FallMesher *f, int strand, Vec3 place[STEPS], f
 {
     int count = strand_path(f, strand, place, step);
     for (int i = 0; i < count; i++) {
-        place[i] = vec3_add(place[i], f->terrain->params->position);
+        place[i] = drawn_in_scene(f->land, vec3_add(place[i], f->terrain->params->position));
     }
     return count;
 }
@@ -430,13 +429,14 @@ static int strands_across(const Terrain *terrain)
     return columns > FEWEST ? (int)columns : FEWEST;
 }
 
-bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                       Error *e)
+bool terrain_add_falls(const DrawnLand *land, const Placing *placing, Error *e)
 {
+    const Terrain *terrain = land->terrain;
     const OutTree *water = terrain->water;
     int32_t *main = terrain_main_children(water, e);
-    float lake = terrain->params->water_level > 0.0f ? terrain_water_height(terrain->params, field)
-                                                     : -INFINITY;
+    float lake = terrain->params->water_level > 0.0f
+                     ? terrain_water_height(terrain->params, land->field)
+                     : -INFINITY;
     int columns = strands_across(terrain);
     bool done = main;
     for (int64_t i = 0; done && i < water->count; i++) {
@@ -444,7 +444,7 @@ bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const P
             continue;
         }
         FallMesher f = {.terrain = terrain,
-                        .field = field,
+                        .land = land,
                         .lip = (int32_t)i,
                         .columns = columns,
                         .breaks = placing->keep_water};

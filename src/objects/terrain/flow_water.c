@@ -1,6 +1,7 @@
 // Water whose level the heights record, as of braided and meandering rivers: a surface that meets
 // the ground of the land's own mesh at its shores.
 #include "base/memory.h"
+#include "objects/terrain/drawn.h"
 #include "objects/terrain/form.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "base/noise.h"
 #include "base/random.h"
-#include "objects/terrain/internal.h"
+#include "objects/terrain/drawn.h"
 #include "objects/terrain/lakes.h"
 
 #include <stdlib.h>
@@ -73,6 +73,7 @@ static Mesh *conifer_mesh(uint64_t seed, Error *e)
 }
 
 typedef struct Planting {
+    const DrawnLand *land;
     const Terrain *terrain;
     const TerrainParams *params;
     const HeightField *field;
@@ -110,6 +111,17 @@ static float tree_size(const Planting *p, float x, float z, uint64_t key)
     return terrain_shore(p->terrain, x, z) > 0.2f * tall ? tall : 0.0f;
 }
 
+// Where a tree stands, in the scene: a little below the land; false in the water of a lake, whose
+// shore on tiles is finer than its samples.
+static bool find_foot(const Planting *p, float x, float z, float tall, Vec3 *foot)
+{
+    float height = p->land->mesh ? drawn_land_at(p->land, x, z) : height_field_at(p->field, x, z);
+    Vec3 place = vec3_add(vec3(x, height - 0.06f * tall, z), p->params->position);
+    *foot = drawn_in_scene(p->land, place);
+    const float *water = p->land->mesh ? p->field->water : NULL;
+    return !water || height > water[terrain_sample_at(p->field, x, z)];
+}
+
 // Plants trees in a jittered grid. If there are more than `count`, far ones are left out first.
 static bool plant(const Planting *p, Transform **place, int64_t *count, const Run *run, Error *e)
 {
@@ -136,7 +148,8 @@ static bool plant(const Planting *p, Transform **place, int64_t *count, const Ru
             continue;
         }
         float tall = tree_size(p, x, z, key), sine, cosine;
-        if (tall <= 0.0f) {
+        Vec3 foot;
+        if (tall <= 0.0f || !find_foot(p, x, z, tall, &foot)) {
             continue;
         }
         if (!memory_reserve(place, &capacity, *count + 1, sizeof **place, e)) {
@@ -145,10 +158,9 @@ static bool plant(const Planting *p, Transform **place, int64_t *count, const Ru
         exact_sincos(random_range(random_key(key, STREAM_TREE_TURN), 0.0f, 2.0f * PI_F), &sine,
                      &cosine);
         float wide = tall * random_range(random_key(key, STREAM_TREE_WIDTH), 0.85f, 1.2f);
-        Vec3 foot = vec3(x, height_field_at(p->field, x, z) - 0.06f * tall, z);
-        (*place)[(*count)++] = transform_from_axes(
-            vec3(wide * cosine, 0, -wide * sine), vec3(0, tall, 0),
-            vec3(wide * sine, 0, wide * cosine), vec3_add(foot, p->params->position));
+        (*place)[(*count)++] =
+            transform_from_axes(vec3(wide * cosine, 0, -wide * sine), vec3(0, tall, 0),
+                                vec3(wide * sine, 0, wide * cosine), foot);
     }
     return true;
 }
@@ -173,12 +185,14 @@ static bool add_form(const Transform *place, int64_t count, int form, uint64_t s
     return placing_add(placing, part, TERRAIN_FOLIAGE, e);
 }
 
-bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                        Error *e)
+bool terrain_add_forest(const DrawnLand *land, const Placing *placing, Error *e)
 {
+    const Terrain *terrain = land->terrain;
+    const HeightField *field = land->field;
     const TerrainParams *params = terrain->params;
     const Vec3 *eye = placing->around.eye;
-    Planting p = {.terrain = terrain,
+    Planting p = {.land = land,
+                  .terrain = terrain,
                   .params = params,
                   .field = field,
                   .has_eye = eye,

@@ -3,32 +3,38 @@
 #include "land/height_mesh.h"
 #include "land/tile_mesh.h"
 #include "mesh/curves.h"
+#include "objects/terrain/drawn.h"
 #include "objects/terrain/form.h"
 
-// Moves a mesh of the land to the terrain's place and gives it its beds. Takes ownership; NULL
-// stays NULL. ERROR_MEMORY: NULL.
-static Mesh *put_in_place(Mesh *mesh, const Terrain *terrain, Error *e)
+// Moves a mesh of the land to the terrain's place and gives it its beds. ERROR_MEMORY.
+static bool move_land(Mesh *mesh, const Terrain *terrain, Error *e)
 {
     Vec3 place = terrain->params->position;
     bool one = !terrain_form(terrain->params)->plateau && terrain->params->strata.bed_count == 0;
-    for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
         mesh->position[i] = vec3_add(mesh->position[i], place);
     }
-    if (!mesh || !terrain->strata || one) {
-        return mesh;
+    if (!terrain->strata || one) {
+        return true;
     }
     mesh->strata = strata_copy(terrain->strata, e);
-    if (!mesh->strata) {
+    if (mesh->strata) {
+        mesh->strata->origin = vec3_add(mesh->strata->origin, place);
+    }
+    return mesh->strata;
+}
+
+// Likewise. Takes ownership; NULL stays NULL. ERROR_MEMORY: NULL.
+static Mesh *put_in_place(Mesh *mesh, const Terrain *terrain, Error *e)
+{
+    if (mesh && !move_land(mesh, terrain, e)) {
         mesh_free(mesh);
         return NULL;
     }
-    mesh->strata->origin = vec3_add(mesh->strata->origin, place);
     return mesh;
 }
 
-// The square's copy number (column, row) away: odd ones are mirrored, so that borders meet, unless
-// the form repeats by itself.
-static Transform copied(const TerrainParams *params, int column, int row)
+Transform terrain_copy(const TerrainParams *params, int column, int row)
 {
     Repeat repeat = terrain_form(params)->repeat;
     float x = column % 2 == 0 || repeat == REPEAT_PERIODIC ? 1.0f : -1.0f;
@@ -66,7 +72,7 @@ bool terrain_add_copies(Mesh *mesh, const TerrainParams *params, const Placing *
     for (int i = 0; part.instance && i < side * side; i++) {
         int column = i % side - rings, row = i / side - rings;
         if (is_copied(params, column, row)) {
-            part.instance[part.instance_count++] = copied(params, column, row);
+            part.instance[part.instance_count++] = terrain_copy(params, column, row);
         }
     }
     if (!part.instance) {
@@ -115,17 +121,20 @@ static bool add_land(const Terrain *terrain, const HeightField *field, const Pla
     return placing_add(placing, part, TERRAIN_LAND, e);
 }
 
-// The land and what lies beyond, of its tiles.
+// What stands on the land or in it.
+static bool add_cover(const DrawnLand *land, const Placing *placing, Error *e)
+{
+    return terrain_add_water(land, placing, e) &&
+           (land->terrain->params->forest.count <= 0 || terrain_add_forest(land, placing, e));
+}
+
+// The land and what lies beyond, of its tiles. They are moved to their place when the water and the
+// trees are on them.
 static bool add_tiles(const Terrain *terrain, const HeightField *field, const Placing *placing,
                       Error *e)
 {
     const double earth = 6371000.0; // m
     const TerrainParams *params = terrain->params;
-    if (terrain->water) {
-        return error_set(
-            e, ERROR_INPUT,
-            "tiles.drawn is true, but it has rivers; draw land without rivers of tiles");
-    }
     const Vec3 *eye = placing->around.eye;
     Vec3 own_eye = eye ? vec3_sub(*eye, params->position) : vec3_splat(0.0f);
     TileGrid grid = {.count = params->tiles.count,
@@ -136,9 +145,27 @@ static bool add_tiles(const Terrain *terrain, const HeightField *field, const Pl
                      .cell = 8.0f * params->mesh_error,
                      .beyond = params->beyond,
                      .curve = (float)(0.5 / earth)};
-    Mesh *mesh = tile_mesh_new(field, &grid, &view, placing->recipe->run, e);
-    Part part = {.mesh = put_in_place(mesh, terrain, e)};
-    return placing_add(placing, part, TERRAIN_LAND, e);
+    TileWater water;
+    TilePlaces places = {0};
+    bool done = tile_water_init(&water, terrain, field, grid.count, e);
+    view.shaping = &water.shaping;
+    Mesh *mesh = done ? tile_mesh_new(field, &grid, &view, &places, placing->recipe->run, e) : NULL;
+    DrawnLand land = {
+        .terrain = terrain, .field = field, .mesh = mesh, .places = &places, .view = &view};
+    done = placing_add(placing, (Part){.mesh = mesh}, TERRAIN_LAND, e) &&
+           add_cover(&land, placing, e) && move_land(mesh, terrain, e);
+    tile_places_clear(&places);
+    tile_water_clear(&water);
+    return done;
+}
+
+// The land of one mesh, and what lies beyond.
+static bool add_square(const Terrain *terrain, const HeightField *field, const Placing *placing,
+                       Error *e)
+{
+    DrawnLand land = {.terrain = terrain, .field = field};
+    return add_land(terrain, field, placing, e) && add_beyond(terrain, field, placing, e) &&
+           add_cover(&land, placing, e);
 }
 
 // The tree as lines on the plane, their thickness in proportion to its radii.
@@ -199,12 +226,8 @@ bool terrain_geometry(const void *given, const Grown *grown, const Placing *plac
         height_field_free(field);
         return drawn;
     }
-    bool done = field && params->tiles.drawn ? add_tiles(terrain, field, placing, e)
-                                             : field && add_land(terrain, field, placing, e) &&
-                                                   add_beyond(terrain, field, placing, e) &&
-                                                   terrain_add_water(terrain, field, placing, e) &&
-                                                   (params->forest.count <= 0 ||
-                                                    terrain_add_forest(terrain, field, placing, e));
+    bool done = field && (params->tiles.drawn ? add_tiles(terrain, field, placing, e)
+                                              : add_square(terrain, field, placing, e));
     if (done && placing->keep_land) {
         keep_land(field, params, &placing->geometry->part[first]);
     } else {

@@ -223,25 +223,28 @@ float terrain_lip_speed(float discharge, float half);
 
 // What a strand of falling water meets.
 typedef struct FallPath {
-    const HeightField *land; // NULL = nothing
-    Vec3 way;                // unit, level: downstream
-    float level;             // m, of the pool in which the path ends
-    float film;              // m over the land at which water slides
-    float step;              // s
+    const struct DrawnLand *land; // NULL = nothing
+    Vec3 way;                     // unit, level: downstream
+    float level;                  // m, of the pool in which the path ends
+    float film;                   // m over the land at which water slides
+    float step;                   // s
 } FallPath;
 
 // Places on the path, `step` apart but for the last, at most `most`; returns their number.
 int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *place, int most);
 
-// The water that falls, a part for each fall. After terrain_lay_rivers.
-bool terrain_add_falls(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                       Error *e);
 // Their number, and the height and place of the highest; nothing without falls.
 bool terrain_measure_falls(const Terrain *terrain, MeasureList *list, Error *e);
 
 // bed.c: lays the rivers that the grid resolves on the finished heights: fills terrain->water,
 // ->shore and ->bank and digs the beds.
 bool terrain_lay_rivers(Terrain *terrain, HeightField *field, const Run *run, Error *e);
+
+// The bed of the river that a place is in or beside, `away` from the water's edge (negative: in
+// it), by the river's node next to it. Beside the water the land is as low as at its edge. cell: of
+// the terrain, m.
+float terrain_bed_at(const Terrain *terrain, int32_t node, float x, float z, float away,
+                     float cell);
 
 // Fills field->water from the lake and the rivers, if there are any: the level of the water over
 // the land or beside it, the lake's everywhere.
@@ -333,9 +336,6 @@ float terrain_braid_roughness(const Terrain *terrain, float x, float z);
 bool terrain_drain_pools(HeightField *field, Error *e);
 // Fills terrain->bank where the ground is less than `reach` m above water near it.
 bool terrain_keep_shores(Terrain *terrain, const HeightField *field, float reach, Error *e);
-// The water's surface.
-bool terrain_add_flow(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                      Error *e);
 // braided_measure.c: after terrain_heights.
 bool terrain_measure_braided(const Terrain *terrain, MeasureList *list, Error *e);
 
@@ -370,14 +370,20 @@ void terrain_evolved_along(const Terrain *terrain, const float *x, float z, int 
 // Height of the river at a node of the tree of courses, m.
 float terrain_course_height(const TerrainParams *params, const OutTree *tree, int64_t i);
 
-// geometry.c: adds copies of a part around the square. Takes ownership of the mesh.
-bool terrain_add_copies(Mesh *mesh, const TerrainParams *params, const Placing *placing, int role,
-                        Error *e);
+// The sample nearest to a place.
+static inline int64_t terrain_sample_at(const HeightField *field, float x, float z)
+{
+    float u = (x - field->origin.x) / field->cell.x, v = (z - field->origin.y) / field->cell.y;
+    int64_t column = (int64_t)(clampf(u, 0.0f, (float)(field->columns - 1)) + 0.5f);
+    int64_t row = (int64_t)(clampf(v, 0.0f, (float)(field->rows - 1)) + 0.5f);
+    return row * field->columns + column;
+}
 
-// water.c, forest.c: parts of the geometry, moved by params->position.
-bool terrain_add_water(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                       Error *e);
-bool terrain_add_forest(const Terrain *terrain, const HeightField *field, const Placing *placing,
+// geometry.c: the square's copy number (column, row) away: odd ones are mirrored, so that borders
+// meet, unless the form repeats by itself.
+Transform terrain_copy(const TerrainParams *params, int column, int row);
+// Adds copies of a part around the square. Takes ownership of the mesh.
+bool terrain_add_copies(Mesh *mesh, const TerrainParams *params, const Placing *placing, int role,
                         Error *e);
 
 #endif

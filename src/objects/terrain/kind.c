@@ -59,7 +59,10 @@ static double tile_faces(const TerrainParams *terrain)
     double near = (double)terrain->size / samples / cell, far = 0.5 * across * terrain->size;
     double rings = fmax(ceil(log2(far / near)), 0.0);
     double faces = rings * 2.0 * 3.0 * 3.14159265 / (cell * cell);
-    return fmin(faces, 2.0 * across * across * samples * samples);
+    // Tiles with water, about half of them at most, have the terrain's own cells.
+    bool wet = terrain->lakes.count > 0 || terrain_form(terrain)->grow;
+    double own = across * across * terrain->resolution * terrain->resolution;
+    return fmin(faces + (wet ? own : 0.0), 2.0 * across * across * samples * samples);
 }
 
 static void needs(const void *params, Needs *needs)

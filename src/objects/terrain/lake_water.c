@@ -2,6 +2,7 @@
 // such a cell lies below the level beside the lake, or the water would leave there, so the
 // shoreline is where the land's own mesh rises through the surface.
 #include "base/memory.h"
+#include "objects/terrain/drawn.h"
 #include "objects/terrain/lakes.h"
 
 #include <math.h>
@@ -111,31 +112,31 @@ static Mesh *lake_mesh(const LakeMesher *m, int32_t lake, Error *e)
     return mesh;
 }
 
-static bool add_lake(LakeMesher *m, int32_t lake, const Placing *placing, Error *e)
+static bool add_lake(LakeMesher *m, int32_t lake, const DrawnLand *land, const Placing *placing,
+                     Error *e)
 {
     count_parts(m, lake);
-    Part part = {.mesh = lake_mesh(m, lake, e)};
-    if (!placing_add(placing, part, TERRAIN_WATER, e)) {
+    if (!drawn_add_water(land, lake_mesh(m, lake, e), placing, e)) {
         return false;
     }
-    if (m->terrain->params->beyond <= 0) {
+    if (m->terrain->params->beyond <= 0 || land->mesh) {
         return true;
     }
     Mesh *mesh = lake_mesh(m, lake, e);
     return mesh && terrain_add_copies(mesh, m->terrain->params, placing, TERRAIN_WATER, e);
 }
 
-bool terrain_add_lakes(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                       Error *e)
+bool terrain_add_lakes(const DrawnLand *land, const Placing *placing, Error *e)
 {
-    if (!terrain->lakes) {
+    const Lakes *lakes = land->terrain->lakes;
+    if (!lakes) {
         return true;
     }
-    LakeMesher m = {.terrain = terrain, .field = field};
-    m.vertex = memory_alloc(height_field_count(field), sizeof *m.vertex, e);
+    LakeMesher m = {.terrain = land->terrain, .field = land->field};
+    m.vertex = memory_alloc(height_field_count(land->field), sizeof *m.vertex, e);
     bool done = m.vertex;
-    for (int32_t i = 0; done && i < terrain->lakes->count; i++) {
-        done = add_lake(&m, i, placing, e);
+    for (int32_t i = 0; done && i < lakes->count; i++) {
+        done = add_lake(&m, i, land, placing, e);
     }
     free(m.vertex);
     return done;

@@ -161,9 +161,6 @@ float terrain_lake_at(const Terrain *terrain, const HeightField *field, float x,
     if (!terrain->lakes) {
         return -INFINITY;
     }
-    float u = (x - field->origin.x) / field->cell.x, v = (z - field->origin.y) / field->cell.y;
-    int64_t column = (int64_t)(clampf(u, 0.0f, (float)(field->columns - 1)) + 0.5f);
-    int64_t row = (int64_t)(clampf(v, 0.0f, (float)(field->rows - 1)) + 0.5f);
-    int32_t label = terrain->lakes->label[row * field->columns + column];
+    int32_t label = terrain->lakes->label[terrain_sample_at(field, x, z)];
     return label >= 0 ? terrain->lakes->lake[label].level : -INFINITY;
 }

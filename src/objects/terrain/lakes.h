@@ -29,10 +29,7 @@ bool terrain_dig_basins(const Terrain *terrain, HeightField *field, const Run *r
 // lake_shore.c: beaches along the shores of the lakes, which are uncovered.
 bool terrain_shape_shores(const Terrain *terrain, HeightField *field, Error *e);
 
-// lake_water.c: a level surface for each lake that meets the land's own mesh.
-bool terrain_add_lakes(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                       Error *e);
-// Number, area, depth and place of the largest; nothing without lakes.
+// lake_water.c: number, area, depth and place of the largest; nothing without lakes.
 bool terrain_measure_lakes(const Terrain *terrain, MeasureList *list, Error *e);
 
 #endif

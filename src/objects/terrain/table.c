@@ -376,8 +376,10 @@ static const Key TILE_KEYS[] = {
      .doc = "Draw the land of its tiles, which meet without cracks: the tile below the camera with "
             "all its cells, farther ones with half, a quarter, ... of them, down to 2, so that no "
             "cell is larger than 8 mesh_error of its distance. The land beyond the square is of "
-            "tiles, too, and all of it lies on the Earth's curve. Not with water, lakes or a "
-            "forest of the terrain's own, nor of forms braided, meander, delta and coast."},
+            "tiles, too, and all of it lies on the Earth's curve. Tiles with rivers or lakes have "
+            "at least the terrain's own cells, with beds and shores of as fine ground. Rivers and "
+            "lakes go on beyond the square; waterfalls and the terrain's forest do not. Not of "
+            "forms braided, meander, delta and coast, nor as a map."},
     {0},
 };
 
@@ -528,9 +530,8 @@ static bool check_tiles(const Mapping *mapping, const TerrainParams *terrain)
     }
     if (tiles->drawn && !terrain_can_be_tiled(terrain)) {
         return mapping_fail(mapping, "tiles.drawn",
-                            " is true; land with water, lakes, a forest or a map of its own, and "
-                            "forms braided, meander, delta and coast, cannot be drawn of tiles: "
-                            "leave them out, or scatter the forest on the land");
+                            " is true; forms braided, meander, delta and coast, and a map (show: "
+                            "map or tree), cannot be drawn of tiles");
     }
     if ((tiles->count & (tiles->count - 1)) != 0) {
         return mapping_fail(mapping, "tiles.count", " is %d; it must be a power of two, such as 64",

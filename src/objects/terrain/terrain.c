@@ -24,8 +24,7 @@ bool terrain_can_be_tiled(const TerrainParams *params)
 {
     const Form *form = terrain_form(params);
     bool square = form->repeat == REPEAT_MIRRORED || form->repeat == REPEAT_PERIODIC;
-    bool dry = !form->water && params->water_level <= 0.0f && params->lakes.count == 0;
-    return square && dry && !form->beyond && params->forest.count == 0 && params->show == SHOW_LAND;
+    return square && !form->water && !form->beyond && params->show == SHOW_LAND;
 }
 
 bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)

@@ -237,7 +237,7 @@ extern ColorStop terrain_altitudes[TERRAIN_ALTITUDES];
 // May there be lakes at their spill levels?
 bool terrain_holds_lakes(const TerrainParams *params);
 
-// May it be drawn of tiles? Only if it has no water, no forest and no surroundings of its own.
+// May it be drawn of tiles? Only if it has no surroundings and no broad flow of its own.
 bool terrain_can_be_tiled(const TerrainParams *params);
 
 // Does the land come from processes that wear it?

@@ -1,6 +1,6 @@
 // Water surfaces: a level lake, and ribbons along the rivers.
 #include "base/memory.h"
-#include "land/height_mesh.h"
+#include "objects/terrain/drawn.h"
 #include "objects/terrain/form.h"
 #include "objects/terrain/lakes.h"
 
@@ -78,11 +78,26 @@ typedef struct Ribbons {
     const Terrain *terrain;
     const OutTree *water;
     const HeightField *field;
+    const DrawnLand *land;
     const int32_t *main; // per node: the child with the most water; -1 = none
     float lake;          // level below which the lake's surface covers the river's
     Mesh *mesh;          // NULL = only count
     int64_t vertices, faces;
 } Ribbons;
+
+// The land at a place of a shore; of tiles, whose cells may be finer than the river's rows, the
+// lowest up to the rows beside it.
+static float shore_at(const Ribbons *r, Vec3 p, Vec3 across)
+{
+    enum { EACH = 6 }; // places to each side; rows are up to a cell apart, outside of bends
+    float lowest = drawn_land_at(r->land, p.x, p.z), step = r->field->cell.x / EACH;
+    for (int k = 1; r->land->mesh && k <= EACH; k++) {
+        float x = step * (float)k * across.z, z = -step * (float)k * across.x;
+        lowest = fminf(lowest, drawn_land_at(r->land, p.x + x, p.z + z));
+        lowest = fminf(lowest, drawn_land_at(r->land, p.x - x, p.z - z));
+    }
+    return lowest;
+}
 
 // A vertex `side` times half the width from the middle: at the river's level, but in cascades,
 // which the cells resolve poorly, always on the land; in pools, below the wall of a fall, under it.
@@ -94,13 +109,14 @@ static Vec3 water_vertex(const Ribbons *r, Vec3 middle, Vec3 across, float half,
     Vec3 p = vec3_madd(middle, side * half, across);
     p.x = clampf(p.x, -border, border);
     p.z = clampf(p.z, -border, border);
-    float land = height_mesh_finest_at(r->field, p.x, p.z), film = terrain_bed_depth(half, half);
+    float film = terrain_bed_depth(half, half);
     bool pool = r->terrain->flow[node].at_fall;
     if (fabsf(side) > 1.0f) {
-        p.y = land - film;
+        p.y = shore_at(r, p, across) - film;
         p.y = pool && p.y > middle.y ? middle.y : p.y;
         return p;
     }
+    float land = drawn_land_at(r->land, p.x, p.z);
     float depth = terrain_bed_depth(half, fabsf(side) * half);
     float least = pool ? fminf(land + 0.5f * film, middle.y) : land + 0.5f * film;
     p.y = clampf(middle.y, least, land + depth + film);
@@ -197,12 +213,16 @@ static void add_stems(Ribbons *r)
     }
 }
 
-static bool add_rivers(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                       Error *e)
+static bool add_rivers(const DrawnLand *land, const Placing *placing, Error *e)
 {
-    Ribbons r = {.terrain = terrain, .water = terrain->water, .field = field, .lake = -INFINITY};
+    const Terrain *terrain = land->terrain;
+    Ribbons r = {.terrain = terrain,
+                 .water = terrain->water,
+                 .field = land->field,
+                 .land = land,
+                 .lake = -INFINITY};
     if (terrain->params->water_level > 0.0f) {
-        r.lake = terrain_water_height(terrain->params, field);
+        r.lake = terrain_water_height(terrain->params, land->field);
     }
     int32_t *main = terrain_main_children(r.water, e);
     if (!main) {
@@ -216,28 +236,42 @@ static bool add_rivers(const Terrain *terrain, const HeightField *field, const P
         if (r.mesh) {
             add_stems(&r);
         }
-        done = placing_add(placing, (Part){.mesh = r.mesh}, TERRAIN_WATER, e);
+        done = drawn_add_water(land, r.mesh, placing, e);
     }
     free(main);
     return done;
 }
 
-bool terrain_add_water(const Terrain *terrain, const HeightField *field, const Placing *placing,
-                       Error *e)
+// The water of the square, or of its copy; water falls in the square alone.
+static bool add_standing_and_flowing(const DrawnLand *land, const Placing *placing, Error *e)
 {
+    const Terrain *terrain = land->terrain;
     const TerrainParams *params = terrain->params;
     if (params->water_level > 0.0f) {
-        Sheet lake = {field, terrain_water_height(params, field),
+        Sheet lake = {land->field, terrain_water_height(params, land->field),
                       params->mesh_error * params->size};
-        Part part = {.mesh = lake_mesh(&lake, params->position, e)};
-        if (!placing_add(placing, part, TERRAIN_WATER, e)) {
+        if (!drawn_add_water(land, lake_mesh(&lake, params->position, e), placing, e)) {
             return false;
         }
     }
-    if (terrain_form(params)->water && !terrain_add_flow(terrain, field, placing, e)) {
+    if (terrain_form(params)->water && !terrain_add_flow(terrain, land->field, placing, e)) {
         return false;
     }
-    return terrain_add_lakes(terrain, field, placing, e) &&
-           (!terrain->water || (add_rivers(terrain, field, placing, e) &&
-                                terrain_add_falls(terrain, field, placing, e)));
+    return terrain_add_lakes(land, placing, e) && (!terrain->water || add_rivers(land, placing, e));
+}
+
+bool terrain_add_water(const DrawnLand *land, const Placing *placing, Error *e)
+{
+    const Terrain *terrain = land->terrain;
+    int rings = land->mesh ? terrain->params->beyond : 0;
+    DrawnLand copy = *land;
+    bool done = add_standing_and_flowing(land, placing, e) &&
+                (!terrain->water || terrain_add_falls(land, placing, e));
+    for (copy.row = -rings; done && copy.row <= rings; copy.row++) {
+        for (copy.column = -rings; done && copy.column <= rings; copy.column++) {
+            done =
+                (copy.column == 0 && copy.row == 0) || add_standing_and_flowing(&copy, placing, e);
+        }
+    }
+    return done;
 }

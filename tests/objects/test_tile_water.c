@@ -1,0 +1,361 @@
+// Water and trees on land drawn of tiles: they meet the triangles that are drawn, near and far, in
+// the square and in its copies.
+#include "making.h"
+#include "making_terrain.h"
+
+#include "objects/terrain/drawn.h"
+#include "objects/terrain/lakes.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SEED = 5 };
+
+static const TerrainTileParams TILES = {.count = 16, .cells = 64, .detail = 1.0f, .drawn = true};
+
+// A terrain with its parts, and the mesh of its tiles made by itself.
+typedef struct Made {
+    TerrainParams params;
+    Run run;
+    Grown grown;
+    Geometry geometry;
+    HeightField *field;
+    TileGrid grid;
+    TileView view;
+    TileWater water;
+    TilePlaces places;
+    Mesh *mesh; // in the terrain's own space
+    Vec3 eye;   // likewise
+} Made;
+
+static const Terrain *terrain_of(const Made *m)
+{
+    return m->grown.state;
+}
+
+// eye: in the terrain's own space.
+static void make(Made *m, const TerrainParams *params, Vec3 eye, int threads)
+{
+    Error e = {0};
+    *m = (Made){.params = *params, .run = run_default(), .eye = eye};
+    m->run.threads = threads;
+    Recipe recipe = {.seed = SEED, .label = "land", .run = &m->run};
+    assert_true(kind_grow(&kind_terrain, &m->params, &recipe, 1.0f, NULL, &m->grown, &e));
+    Placing placing = placing_in(&m->geometry, &recipe);
+    Vec3 there = vec3_add(eye, params->position);
+    placing.around.eye = &there;
+    if (!terrain_geometry(&m->params, &m->grown, &placing, &e)) {
+        fail_msg("%s", e.message);
+    }
+    m->field = terrain_heights(&m->params, &m->grown, &m->run, &e);
+    m->grid = (TileGrid){
+        .count = TILES.count, .cells = TILES.cells, .detail = TILES.detail, .seed = SEED};
+    m->view = (TileView){.eye = &m->eye,
+                         .cell = 8.0f * params->mesh_error,
+                         .beyond = params->beyond,
+                         .curve = (float)(0.5 / 6371000.0)};
+    assert_true(tile_water_init(&m->water, terrain_of(m), m->field, TILES.count, &e));
+    m->view.shaping = &m->water.shaping;
+    m->mesh = tile_mesh_new(m->field, &m->grid, &m->view, &m->places, &m->run, &e);
+    assert_non_null(m->mesh);
+}
+
+static void drop(Made *m)
+{
+    mesh_free(m->mesh);
+    tile_places_clear(&m->places);
+    tile_water_clear(&m->water);
+    height_field_free(m->field);
+    geometry_clear(&m->geometry);
+    grown_clear(&m->grown);
+}
+
+static TerrainParams land_of(TerrainForm form)
+{
+    TerrainParams params = terrain_params_default();
+    params.form = form;
+    params.size = 4000.0f;
+    params.resolution = 128;
+    params.beyond = 1;
+    params.mesh_error = 0.004f;
+    params.position = vec3(100.0f, 20.0f, -50.0f);
+    params.tiles = TILES;
+    params.forest.count = 0;
+    return params;
+}
+
+static TerrainParams land_of_lakes(void)
+{
+    TerrainParams params = land_of(TERRAIN_NOISE);
+    params.lakes.count = 1000;
+    return params;
+}
+
+static TerrainParams land_of_rivers(void)
+{
+    TerrainParams params = land_of(TERRAIN_RIVERS);
+    params.rivers.count = 300;
+    params.rivers.water = 0.03f;
+    params.rivers.fall_height = 0.0f;
+    return params;
+}
+
+// The drawn land below a place of the scene.
+static float land_below(const Made *m, Vec3 p)
+{
+    Vec3 place = m->params.position;
+    return tile_places_height(&m->places, m->mesh, p.x - place.x, p.z - place.z) + place.y;
+}
+
+// A place of the scene, or of a copy, as that of the square in the terrain's own space.
+static Vec2 in_square(const Made *m, Vec3 p)
+{
+    float half = 0.5f * m->params.size, x = p.x - m->params.position.x,
+          z = p.z - m->params.position.z;
+    x = x > half ? 2.0f * half - x : x < -half ? -2.0f * half - x : x;
+    z = z > half ? 2.0f * half - z : z < -half ? -2.0f * half - z : z;
+    return (Vec2){clampf(x, -half, half), clampf(z, -half, half)};
+}
+
+// Is a lake's sample within a cell of a place of the square?
+static bool is_at_lake(const Made *m, Vec2 at)
+{
+    const HeightField *field = m->field;
+    for (int k = 0; k < 9 && terrain_of(m)->lakes; k++) {
+        float x = at.x + (float)(k % 3 - 1) * field->cell.x;
+        float z = at.y + (float)(k / 3 - 1) * field->cell.y;
+        if (terrain_lake_at(terrain_of(m), field, x, z) > -INFINITY) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Every face's middle has the height of that face, also in the rims that join tiles of many sizes.
+static void places_tell_the_drawn_height(void **state)
+{
+    (void)state;
+    Made m;
+    TerrainParams params = land_of_lakes();
+    make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
+    for (int64_t i = 0; i < m.mesh->face_count; i++) {
+        const uint32_t *corner = m.mesh->index + 3 * i;
+        Vec3 middle =
+            vec3_scale(vec3_add(m.mesh->position[corner[0]],
+                                vec3_add(m.mesh->position[corner[1]], m.mesh->position[corner[2]])),
+                       1.0f / 3.0f);
+        float height = tile_places_height(&m.places, m.mesh, middle.x, middle.z);
+        assert_true(fabsf(height - middle.y) < 0.01f);
+    }
+    drop(&m);
+}
+
+// The land that the scene has is this mesh, which these tests look water and trees up on.
+static void check_land(const Made *m)
+{
+    const Mesh *land = m->geometry.part[0].mesh;
+    assert_int_equal(land->vertex_count, m->mesh->vertex_count);
+    for (int64_t i = 0; i < land->vertex_count; i++) {
+        Vec3 p = vec3_add(m->mesh->position[i], m->params.position), q = land->position[i];
+        assert_true(p.x == q.x && p.y == q.y && p.z == q.z);
+    }
+}
+
+typedef struct Seen {
+    int64_t places, under, beyond; // of the water; where it is over the land; of those in copies
+    double most;                   // m: the highest water over the land at the water's outline
+} Seen;
+
+// Is an edge of a quad that of another face too?
+static bool is_shared(const Mesh *mesh, uint32_t a, uint32_t b, const int32_t *first,
+                      const int32_t *next)
+{
+    int uses = 0;
+    for (int32_t c = first[a]; c >= 0; c = next[c]) {
+        uint32_t face = (uint32_t)c / 4, k = (uint32_t)c % 4;
+        const uint32_t *corner = mesh->index + 4 * face;
+        uses += corner[(k + 1) % 4] == b || corner[(k + 3) % 4] == b;
+    }
+    return uses > 1;
+}
+
+// Is a place of the scene beside a river, not where it begins, enters another or leaves the square?
+// Everywhere without rivers.
+static bool is_beside(const Made *m, Vec3 p)
+{
+    Vec2 at = in_square(m, p);
+    float rim = 0.5f * m->params.size - fmaxf(fabsf(at.x), fabsf(at.y));
+    return !terrain_of(m)->shore || (terrain_shore(terrain_of(m), at.x, at.y) > 0.5f && rim > 0.5f);
+}
+
+// Looks a sheet of water up, its outline and its faces, at places this many to an edge.
+static void look_at(const Made *m, const Mesh *mesh, Seen *seen)
+{
+    enum { PLACES = 8 };
+    int64_t corners = 4 * mesh->face_count;
+    int32_t *first = malloc(sizeof *first * (size_t)mesh->vertex_count);
+    int32_t *next = malloc(sizeof *next * (size_t)corners);
+    memset(first, 0xff, sizeof *first * (size_t)mesh->vertex_count);
+    for (int64_t c = 0; c < corners; c++) {
+        next[c] = first[mesh->index[c]];
+        first[mesh->index[c]] = (int32_t)c;
+    }
+    for (int64_t c = 0; c < corners; c++) {
+        uint32_t a = mesh->index[c], b = mesh->index[c % 4 == 3 ? c - 3 : c + 1];
+        bool outline = !is_shared(mesh, a, b, first, next) && is_beside(m, mesh->position[a]) &&
+                       is_beside(m, mesh->position[b]);
+        for (int k = 0; k <= PLACES; k++) {
+            Vec3 p = vec3_lerp(mesh->position[a], mesh->position[b], (float)k / PLACES);
+            float over = p.y - land_below(m, p);
+            Vec2 at = in_square(m, p);
+            seen->places++;
+            bool rim = outline && is_beside(m, p);
+            if (rim) {
+                seen->most = fmax(seen->most, (double)over);
+            }
+            if (over > 0.02f) {
+                bool river = terrain_shore(terrain_of(m), at.x, at.y) < 0.5f * m->field->cell.x;
+                assert_true(river || is_at_lake(m, at));
+                seen->under++;
+                seen->beyond += fabsf(p.x - m->params.position.x) > 0.51f * m->params.size;
+            }
+        }
+    }
+    free(next);
+    free(first);
+}
+
+// Lakes end on the drawn land, and what lies deep in the world's lakes lies under the drawn water.
+static void lakes_end_at_drawn_shores(void **state)
+{
+    (void)state;
+    Made m;
+    TerrainParams params = land_of_lakes();
+    make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
+    check_land(&m);
+    const Lakes *lakes = terrain_of(&m)->lakes;
+    assert_int_equal(m.geometry.count, 1 + 9 * lakes->count);
+    Seen seen = {0};
+    for (int64_t i = 1; i < m.geometry.count; i++) {
+        look_at(&m, m.geometry.part[i].mesh, &seen);
+    }
+    print_message("%d lakes: %d of %d places over the land, %d beyond; rim %.4f m\n", lakes->count,
+                  (int)seen.under, (int)seen.places, (int)seen.beyond, seen.most);
+    assert_true(seen.most < 0.001 && seen.under > 10000 && seen.beyond > 2000);
+    int64_t deep = 0, columns = m.field->columns;
+    for (int64_t i = columns + 1; i + columns + 1 < height_field_count(m.field); i++) {
+        int32_t label = lakes->label[i];
+        int64_t c = i % columns;
+        if (label < 0 || c == 0 || c + 1 == columns || lakes->label[i + 1] < 0 ||
+            lakes->label[i - 1] < 0 || lakes->label[i + columns] < 0 ||
+            lakes->label[i - columns] < 0 || lakes->label[i - columns - 1] < 0 ||
+            lakes->label[i - columns + 1] < 0 || lakes->label[i + columns - 1] < 0 ||
+            lakes->label[i + columns + 1] < 0) {
+            continue;
+        }
+        float x = m.field->origin.x + (float)c * m.field->cell.x;
+        float z = m.field->origin.y + (float)(i / columns) * m.field->cell.y;
+        float bed = tile_places_height(&m.places, m.mesh, x, z) + tile_view_sinks(&m.view, x, z);
+        assert_true(bed < lakes->lake[label].level);
+        deep++;
+    }
+    assert_true(deep > 100);
+    drop(&m);
+}
+
+// Rivers run in their beds at the terrain's levels, their edges below the drawn banks.
+static void rivers_run_in_drawn_beds(void **state)
+{
+    (void)state;
+    Made m;
+    TerrainParams params = land_of_rivers();
+    make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
+    check_land(&m);
+    assert_int_equal(m.geometry.count, 1 + 9);
+    Seen seen = {0};
+    for (int64_t i = 1; i < m.geometry.count; i++) {
+        look_at(&m, m.geometry.part[i].mesh, &seen);
+    }
+    print_message("rivers: %d of %d places over the land, %d beyond; rim %.4f m\n", (int)seen.under,
+                  (int)seen.places, (int)seen.beyond, seen.most);
+    assert_true(seen.most < 0.1 && seen.under > 10000 && seen.beyond > 2000);
+    const OutTree *water = terrain_of(&m)->water;
+    for (int64_t i = 0; i < water->count; i++) {
+        Vec3 p = water->position[i];
+        float bed =
+            tile_places_height(&m.places, m.mesh, p.x, p.z) + tile_view_sinks(&m.view, p.x, p.z);
+        assert_true(bed < p.y);
+    }
+    drop(&m);
+}
+
+// Each tree's foot is 0.06 of its height below the drawn land, and none stands in water.
+static void trees_stand_on_drawn_land(void **state)
+{
+    (void)state;
+    Made m;
+    TerrainParams params = land_of_lakes();
+    params.forest.count = 20000;
+    params.forest.slope = 60.0f;
+    params.forest.high = 1.0f;
+    make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
+    check_land(&m);
+    int64_t trees = 0;
+    double coarse = 0.0;
+    for (int64_t k = 1; k < m.geometry.count; k++) {
+        const Part *part = &m.geometry.part[k];
+        for (int64_t i = 0; i < part->instance_count; i++, trees++) {
+            Vec3 foot = transform_point(&part->instance[i], vec3(0, 0, 0));
+            Vec3 top = transform_point(&part->instance[i], vec3(0, 1, 0));
+            float ground = land_below(&m, foot), sunk = 0.06f * (top.y - foot.y);
+            assert_true(fabsf(foot.y + sunk - ground) < 0.005f);
+            float x = foot.x - params.position.x, z = foot.z - params.position.z;
+            coarse =
+                fmax(coarse,
+                     fabs((double)(height_field_at(m.field, x, z) - ground + params.position.y)));
+            float level = m.field->water[terrain_sample_at(m.field, x, z)];
+            assert_true(ground - params.position.y + tile_view_sinks(&m.view, x, z) > level);
+        }
+    }
+    print_message("%d trees; the coarse land is up to %.1f m off\n", (int)trees, coarse);
+    assert_true(trees > 1000 && coarse > 1.0);
+    drop(&m);
+}
+
+static void threads_change_no_bit(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        TerrainParams params = k == 0 ? land_of_lakes() : land_of_rivers();
+        params.forest.count = 2000;
+        Made one, three;
+        make(&one, &params, vec3(300.0f, 200.0f, 500.0f), 1);
+        make(&three, &params, vec3(300.0f, 200.0f, 500.0f), 3);
+        assert_int_equal(one.geometry.count, three.geometry.count);
+        for (int64_t i = 0; i < one.geometry.count; i++) {
+            const Part *a = &one.geometry.part[i], *b = &three.geometry.part[i];
+            assert_int_equal(a->mesh->vertex_count, b->mesh->vertex_count);
+            assert_int_equal(a->instance_count, b->instance_count);
+            assert_memory_equal(a->mesh->position, b->mesh->position,
+                                sizeof(Vec3) * (size_t)a->mesh->vertex_count);
+            assert_memory_equal(a->mesh->normal, b->mesh->normal,
+                                sizeof(Vec3) * (size_t)a->mesh->vertex_count);
+            if (a->instance_count > 0) {
+                assert_memory_equal(a->instance, b->instance,
+                                    sizeof *a->instance * (size_t)a->instance_count);
+            }
+        }
+        drop(&one);
+        drop(&three);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(places_tell_the_drawn_height), cmocka_unit_test(lakes_end_at_drawn_shores),
+        cmocka_unit_test(rivers_run_in_drawn_beds),     cmocka_unit_test(trees_stand_on_drawn_land),
+        cmocka_unit_test(threads_change_no_bit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
