@@ -216,6 +216,36 @@ static void moss_and_scars_grow_where_they_are_asked_for(void **state)
     assert_true(highest - deepest < relief_size(&m, RADIUS) + 0.06f);
 }
 
+// Most scars on smooth bark are closed: few of the places that lie below the bark lie deep, where
+// wood is bare.
+static void few_scars_of_smooth_bark_are_open(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_BARK;
+    m.bark = BARK_SMOOTH;
+    m.pattern_depth = 0.0f;
+    m.scars = 1.0f;
+    int below = 0, deep = 0;
+    for (int i = 0; i < 48 * 4000; i++) {
+        float angle = 2.0f * PI_F * (float)(i % 48) / 48.0f, y = 0.01f * (float)(i / 48);
+        Vec3 n = vec3(sinf(angle), 0, cosf(angle));
+        SurfacePoint point = {.object_position = vec3_madd(vec3(0, y, 0), RADIUS, n),
+                              .geometric_normal = n,
+                              .normal = n,
+                              .tangent_u = vec3(n.z, 0, -n.x),
+                              .tangent_v = vec3(0, 1, 0),
+                              .uv = {angle * RADIUS, y},
+                              .radius = RADIUS,
+                              .footprint = 1e-4f};
+        float height = pattern_height(&m, &point);
+        below += height < -0.0005f;
+        deep += height < -0.006f;
+    }
+    assert_true(below > 400 && deep > 40);
+    assert_true(3 * deep < 2 * below);
+}
+
 // A change of the relief rebuilds; one of the colour does not.
 static void structures_fit_the_relief(void **state)
 {
@@ -237,6 +267,7 @@ int main(void)
         cmocka_unit_test(only_displacement_changes_the_outline),
         cmocka_unit_test(far_stems_and_copies_keep_bumps),
         cmocka_unit_test(moss_and_scars_grow_where_they_are_asked_for),
+        cmocka_unit_test(few_scars_of_smooth_bark_are_open),
         cmocka_unit_test(structures_fit_the_relief),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -63,31 +63,37 @@ static void add_scar(const Material *m, const StemPlace *place, BarkSurface *bar
     bark->color = vec3_lerp(bark->color, wood, guard * 0.85f * dent);
 }
 
-// A scar on smooth bark: an eye under two dark lines that run down from its top to both sides, the
-// ridge of bark that the limb and the stem pressed up between them.
+// A scar on smooth bark, no two alike: a shallow oval, or wood laid bare in a rim of callus where
+// it has not closed, under two dark lines that run down from its top to both sides, the ridge of
+// bark that the limb and the stem pressed up between them. Few are large: most limbs fall thin.
 static void add_eye(const Material *m, const StemPlace *place, BarkSurface *bark)
 {
     const float around = 0.55f, along = 0.65f; // m
     float thick = smoothstepf(0.06f, 0.14f, place->radius);
     CellPoint cell = noise_cells(stem_lookup(place, around, along), 82);
-    if (thick <= 0.0f || noise_unit(cell.cell, 1) > 0.8f * m->scars) {
+    if (thick <= 0.0f || noise_unit(cell.cell, 1) > 0.6f * m->scars) {
         return;
     }
-    float size = lerpf(0.03f, 0.06f, noise_unit(cell.cell, 2)); // m: half its width
+    float rank = noise_unit(cell.cell, 2), flat = lerpf(0.8f, 4.0f, noise_unit(cell.cell, 4));
+    float size = lerpf(0.013f, 0.065f, rank * rank); // m: half its width
+    float open = smoothstepf(0.55f, 0.85f, noise_unit(cell.cell, 3));
+    float skew = lerpf(-0.4f, 0.4f, noise_unit(cell.cell, 5));
+    float reach = lerpf(1.3f, 3.8f, noise_unit(cell.cell, 6));
     Vec3 torn;
     noise_solid(vec3_scale(place->p, 0.5f / size), 83, &torn);
-    float u = (-around * vec3_dot(cell.point, place->along_u)) / size + 0.06f * torn.x;
-    float v = -along * cell.point.z / size + 0.06f * torn.z;
+    float u = (-around * vec3_dot(cell.point, place->along_u)) / size + 0.12f * torn.x;
+    float v = -along * cell.point.z / size + skew * u + 0.12f * torn.z;
     float guard = thick * smoothstepf(0.0f, 0.06f, cell.border);
-    float t = sqrtf(u * u + 2.2f * v * v), side = fabsf(u);
+    float t = sqrtf(u * u + flat * v * v), side = fabsf(u);
     float arm = bell(v + 0.55f * side + 0.06f * side * side, 0.85f, 0.17f + 0.04f * side) *
-                smoothstepf(3.4f, 1.2f, side) * guard;
+                smoothstepf(reach, 0.35f * reach, side) * guard;
     float dent = guard * (1.0f - smoothstepf(0.4f, 0.95f, t)), rim = guard * bell(t, 1.15f, 0.25f);
-    bark->form += 0.014f * (0.75f * rim - dent) + 0.003f * arm;
-    float rings = 0.5f + 0.5f * cosf(16.0f * t + 3.0f * torn.y);
-    bark->color = vec3_scale(bark->color, 1.0f - 0.15f * rim * rings - 0.45f * arm);
-    Vec3 wood = vec3_scale(m->color2, 1.0f + 0.5f * rings * t);
-    bark->color = vec3_lerp(bark->color, wood, 0.7f * dent);
+    float deep = size * lerpf(0.08f, 0.32f, open);
+    bark->form += fminf(deep, 0.014f) * (0.75f * rim - dent) + 0.05f * size * arm;
+    float rings = 0.5f + 0.5f * cosf(16.0f * t + 5.0f * torn.y);
+    bark->color = vec3_scale(bark->color, 1.0f - 0.15f * rim * rings - 0.4f * arm);
+    Vec3 wood = vec3_scale(m->color2, 1.0f + 0.4f * torn.y);
+    bark->color = vec3_lerp(bark->color, wood, lerpf(0.2f, 0.75f, open) * dent);
 }
 
 // Ribs run up from the roots; furrows lie between them, where the wood has died back.
