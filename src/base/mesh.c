@@ -46,6 +46,9 @@ Mesh *mesh_new(int face_size, int64_t vertex_count, int64_t face_count, int arra
     if (made && (arrays & MESH_SHORE_ARRAY)) {
         made = (mesh->shore = memory_alloc_zero(vertex_count, sizeof(float), e));
     }
+    if (made && (arrays & MESH_YOUNG)) {
+        made = (mesh->young = memory_alloc_zero(vertex_count, sizeof(float), e));
+    }
     if (!made) {
         mesh_free(mesh);
         return NULL;
@@ -65,6 +68,7 @@ void mesh_free(Mesh *mesh)
         free(mesh->site);
         free(mesh->foam);
         free(mesh->shore);
+        free(mesh->young);
         strata_free(mesh->strata);
         waves_free(mesh->waves);
         free(mesh);

@@ -22,6 +22,7 @@ typedef struct Mesh {
     float *foam;           // water: share of it that is white with air, 0..1; NULL = none
     float *shore;          // land: m by which it lies lower than MESH_SHORE above the water near
                            // it, 0 = higher or far from water; NULL = there is no water
+    float *young;          // leaves: 1 = grown this year, paler, 0 = older; NULL = older everywhere
     struct Waves *waves;   // of a sea, for what is finer than the mesh; owned; NULL = none
     struct Strata *strata; // land: its beds of rock, in the mesh's space; owned; NULL = none
 } Mesh;
@@ -34,7 +35,8 @@ enum {
     MESH_BIRTH = 8,
     MESH_SITE = 16,
     MESH_FOAM = 32,
-    MESH_SHORE_ARRAY = 64
+    MESH_SHORE_ARRAY = 64,
+    MESH_YOUNG = 128
 };
 
 #define MESH_SHORE 8.0f // m above water: how far up shores reach

@@ -12,12 +12,17 @@ uint32_t quads_vertex(Quads *quads, Vec3 position, Vec2 uv)
     if (quads->failed ||
         !memory_reserve(&quads->position, &quads->position_capacity, v + 1, sizeof *quads->position,
                         quads->e) ||
-        !memory_reserve(&quads->uv, &quads->uv_capacity, v + 1, sizeof *quads->uv, quads->e)) {
+        !memory_reserve(&quads->uv, &quads->uv_capacity, v + 1, sizeof *quads->uv, quads->e) ||
+        (quads->ages && !memory_reserve(&quads->youth, &quads->youth_capacity, v + 1,
+                                        sizeof *quads->youth, quads->e))) {
         quads->failed = true;
         return 0;
     }
     quads->position[v] = quads->place ? transform_point(quads->place, position) : position;
     quads->uv[v] = uv;
+    if (quads->ages) {
+        quads->youth[v] = quads->young;
+    }
     quads->vertex_count++;
     return (uint32_t)v;
 }
@@ -98,19 +103,24 @@ void quads_clear(Quads *quads)
 {
     free(quads->position);
     free(quads->uv);
+    free(quads->youth);
     free(quads->index);
     *quads = (Quads){.e = quads->e, .failed = quads->failed};
 }
 
 Mesh *quads_mesh(Quads *quads)
 {
-    Mesh *mesh = quads->failed ? NULL
-                               : mesh_new(4, quads->vertex_count, quads->face_count,
-                                          MESH_NORMAL | MESH_UV, quads->e);
+    int arrays = MESH_NORMAL | MESH_UV | (quads->ages ? MESH_YOUNG : 0);
+    Mesh *mesh = quads->failed
+                     ? NULL
+                     : mesh_new(4, quads->vertex_count, quads->face_count, arrays, quads->e);
     if (mesh) {
         size_t vertices = (size_t)quads->vertex_count;
         memcpy(mesh->position, quads->position, vertices * sizeof *mesh->position);
         memcpy(mesh->uv, quads->uv, vertices * sizeof *mesh->uv);
+        if (mesh->young) {
+            memcpy(mesh->young, quads->youth, vertices * sizeof *mesh->young);
+        }
         memcpy(mesh->index, quads->index, 4 * (size_t)quads->face_count * sizeof *mesh->index);
     }
     quads_clear(quads);

@@ -12,6 +12,10 @@ typedef struct Quads {
     int64_t vertex_count, position_capacity, uv_capacity;
     int64_t face_count, index_capacity;
     const Transform *place; // of the vertices that are added; NULL = identity
+    bool ages;              // the mesh gets Mesh.young
+    float young;            // of the vertices that are added
+    float *youth;           // of all vertices, if ages
+    int64_t youth_capacity;
     bool failed;
     Error *e;
 } Quads;

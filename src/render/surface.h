@@ -36,6 +36,7 @@ typedef struct SurfacePoint {
     const struct Waves *waves;   // of a sea; NULL = none
     float variation;             // 0..1 per instance
     float season;                // of a leaf, -1..1: see InstanceLook
+    float young;                 // of a leaf: 1 = this part of it grew this year, 0 = it is older
     bool backface;               // the ray met the side away from the mesh's own orientation
     float
         epsilon; // m: how far along facet_normal a ray starts so as not to meet this surface again

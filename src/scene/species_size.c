@@ -6,8 +6,18 @@
 
 enum { NUMBER_SIZE = 32 };
 
-// What is as large as the tree; leaves, bark and the tips of twigs are not.
-static const char *const GROUPS[] = {"trunk", "crown", "roots"};
+// What is as large as the tree; leaves, bark and the tips of twigs are not. Of light only the part:
+// its other lengths are the species'.
+static const struct {
+    const char *name, *part; // part: NULL = the whole group
+} GROUPS[] = {{"trunk", NULL}, {"crown", NULL}, {"roots", NULL}, {"light", "attractors"}};
+enum { GROUP_COUNT = sizeof GROUPS / sizeof *GROUPS };
+
+static Node *group_of(const Node *species, size_t i)
+{
+    Node *group = node_get(species, GROUPS[i].name);
+    return GROUPS[i].part ? node_get(group, GROUPS[i].part) : group;
+}
 
 static bool number_of(const Node *node, double *value)
 {
@@ -60,6 +70,15 @@ static bool scale_map(const Table *table, Node *map, double factor, Arena *arena
     return done;
 }
 
+static bool scale_group(const Table *table, const Node *species, size_t i, double factor,
+                        Arena *arena, Error *e)
+{
+    Node *group = group_of(species, i);
+    const Key *row = table_find(table, GROUPS[i].name);
+    row = row && row->table && GROUPS[i].part ? table_find(row->table, GROUPS[i].part) : row;
+    return !group || !row || scale_key(row, group, factor, arena, e);
+}
+
 // A tree that grows by light has its height there.
 static const Node *height_of(const Node *species)
 {
@@ -75,10 +94,8 @@ bool species_fit_size(const Table *table, const Node *given, Node *species, Aren
         return true;
     }
     bool done = true;
-    for (size_t i = 0; done && i < sizeof GROUPS / sizeof *GROUPS; i++) {
-        Node *group = node_get(species, GROUPS[i]);
-        const Key *row = table_find(table, GROUPS[i]);
-        done = !group || !row || scale_key(row, group, wanted / own, arena, e);
+    for (size_t i = 0; done && i < GROUP_COUNT; i++) {
+        done = scale_group(table, species, i, wanted / own, arena, e);
     }
     return done;
 }
@@ -152,9 +169,9 @@ bool species_fit_place(const Node *given, Node *species, Arena *arena, Error *e)
     if (!vector_of(node_get(given, "position"), by)) {
         return true;
     }
-    for (size_t i = 0; i < sizeof GROUPS / sizeof *GROUPS; i++) {
+    for (size_t i = 0; i < GROUP_COUNT; i++) {
         for (size_t k = 0; k < sizeof LISTS / sizeof *LISTS; k++) {
-            Node *list = node_get(node_get(species, GROUPS[i]), LISTS[k]);
+            Node *list = node_get(group_of(species, i), LISTS[k]);
             for (Node *entry = list ? list->first : NULL; done && entry; entry = entry->next) {
                 done = move_entry(entry, by, arena, e);
             }

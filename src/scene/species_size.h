@@ -4,10 +4,10 @@
 
 #include "config/table.h"
 
-// Multiplies the lengths (keys with the unit m) of the species' trunk, crown and roots by the
-// height that the object gives over that of the species. Nothing changes if one gives none. given,
-// species: mappings of `table`, of the object and of the species file; the latter changes. false
-// and e when out of memory.
+// Multiplies the lengths (keys with the unit m) of the species' trunk, crown, roots and
+// light.attractors by the height that the object gives over that of the species. Nothing changes if
+// one gives none. given, species: mappings of `table`, of the object and of the species file; the
+// latter changes. false and e when out of memory.
 bool species_fit_size(const Table *table, const Node *given, Node *species, Arena *arena, Error *e);
 
 // Moves the species' envelopes and guide fields, which are given about its foot, to the position

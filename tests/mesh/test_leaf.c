@@ -282,6 +282,38 @@ static void needles_stand_on_their_shoot(void **state)
     }
 }
 
+// The tip of every shoot is this year's, in the fine mesh as in coarse ones; without flush no mesh
+// has ages.
+static void needles_at_the_tip_are_young(void **state)
+{
+    (void)state;
+    LeafParams form = flat(LEAF_NEEDLES, 0.004f, 0.001f);
+    form.needles = 200;
+    form.shoot = 0.1f;
+    form.needle_angle = 90.0f;
+    form.flush = 0.3f;
+    float error;
+    for (int coarse = 0; coarse < 2; coarse++) {
+        Mesh *mesh =
+            coarse ? leaf_mesh_coarse(&form, 9, 0, &error, NULL) : leaf_mesh_new(&form, 9, NULL);
+        int64_t young = 0, old = 0;
+        assert_non_null(mesh->young);
+        for (int64_t v = 0; v < mesh->vertex_count; v++) {
+            float y = mesh->position[v].y;
+            assert_true(y < 0.068f ? mesh->young[v] < 0.26f : true);
+            assert_true(y > 0.072f ? mesh->young[v] > 0.74f : true);
+            young += mesh->young[v] > 0.5f;
+            old += mesh->young[v] < 0.5f;
+        }
+        assert_in_range(100 * young / (young + old), 24, 36);
+        mesh_free(mesh);
+    }
+    form.flush = 0.0f;
+    Mesh *mesh = leaf_mesh_new(&form, 9, NULL);
+    assert_null(mesh->young);
+    mesh_free(mesh);
+}
+
 static void wear_takes_area_away(void **state)
 {
     (void)state;
@@ -349,6 +381,7 @@ int main(void)
         cmocka_unit_test(an_edge_has_as_many_teeth_as_asked_for),
         cmocka_unit_test(a_pinnate_leaf_has_its_leaflets),
         cmocka_unit_test(needles_stand_on_their_shoot),
+        cmocka_unit_test(needles_at_the_tip_are_young),
         cmocka_unit_test(wear_takes_area_away),
         cmocka_unit_test(close_margins_have_no_corners),
     };

@@ -124,6 +124,26 @@ static void envelopes_follow_the_position(void **state)
     scene_free(scene);
 }
 
+// Attractors that buds reach for are of the tree's size and about its foot, as the crown is; other
+// lengths of light are not.
+static void attractors_of_light_follow_the_tree(void **state)
+{
+    Fixture *fixture = *state;
+    write_file(fixture, "fan.yaml",
+               "tree: {light: {mature_height: 8, attractors: {count: 9, envelope: [{shape: "
+               "ellipsoid, size: [2, 1, 2], position: [1, 6, 0]}]}}}\n");
+    Scene *scene = fixture_read(fixture, "objects: [{name: a, tree: {species: fan.yaml, height: 4, "
+                                         "position: [10, 2, -3]}}]\n");
+    const TreeParams *a = tree_of(scene, 0);
+    const Shape *shape = &a->light.attractors.element.shapes[0];
+    assert_float_equal(a->light.mature_height, 8.0, 0.0);
+    assert_float_equal(shape->size.x, 1.0, 0.0);
+    assert_float_equal(shape->position.x, 10.5, 0.0);
+    assert_float_equal(shape->position.y, 5.0, 0.0);
+    assert_float_equal(shape->position.z, -3.0, 0.0);
+    scene_free(scene);
+}
+
 static void the_scene_changes_materials_by_key(void **state)
 {
     Fixture *fixture = *state;
@@ -367,6 +387,7 @@ int main(void)
         TEST(targets_can_be_left_out),
         TEST(lengths_follow_the_height),
         TEST(envelopes_follow_the_position),
+        TEST(attractors_of_light_follow_the_tree),
         TEST(the_scene_changes_materials_by_key),
         TEST(a_species_begins_with_another),
         TEST(a_folder_beside_the_scene_comes_first),

@@ -69,7 +69,8 @@ static void add_blades(Quads *quads, const LeafParams *params, uint64_t seed)
 static Mesh *leaf_mesh(const LeafParams *params, bool bare, uint64_t seed, Error *e)
 {
     Transform nod = nodding(params);
-    Quads quads = {.e = e, .place = params->nod > 0.0f ? &nod : NULL};
+    Quads quads = {
+        .e = e, .place = params->nod > 0.0f ? &nod : NULL, .ages = needles_flush(params)};
     add_blades(&quads, params, seed);
     if (bare) {
         return quads_mesh(&quads);
@@ -152,7 +153,8 @@ static Mesh *coarse_parts_once(const LeafParams *params, uint64_t seed, int leve
                                Error *e)
 {
     Transform nod = nodding(params);
-    Quads quads = {.e = e, .place = params->nod > 0.0f ? &nod : NULL};
+    Quads quads = {
+        .e = e, .place = params->nod > 0.0f ? &nod : NULL, .ages = needles_flush(params)};
     if (leaf_has_needles(params)) {
         static const int stride[LEAF_COARSE_MOST] = {4, 16, NEEDLES_AS_SHOOTS};
         needles_add(&quads, params, stride[level], factor, false, seed);

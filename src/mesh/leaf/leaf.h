@@ -68,6 +68,7 @@ typedef struct LeafParams {
     float shoot;        // m, length of the piece of shoot or of the spray
     float needle_angle; // degrees to the shoot
     float comb;         // 0..1: from all round to two sides
+    float flush;        // 0..1: share of every shoot with needles, at its tip, that grew this year
 } LeafParams;
 
 // uv: u 0..1 across (0.5 = midrib), v 0..1 along the blade (0 on the stalk), of every leaflet, lobe

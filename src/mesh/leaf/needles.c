@@ -5,7 +5,14 @@
 
 // Of a piece; NEEDLES + i: needle i, SHOOTS + i: side shoot i.
 enum { STREAM_NEEDLES = 10, STREAM_SHOOTS = 1000000 };
-enum { STREAM_TURN = 1, STREAM_OPEN = 2, STREAM_LENGTH = 3, STREAM_ROLL = 4, STREAM_PLACE = 5 };
+enum {
+    STREAM_TURN = 1,
+    STREAM_OPEN = 2,
+    STREAM_LENGTH = 3,
+    STREAM_ROLL = 4,
+    STREAM_PLACE = 5,
+    STREAM_YOUTH = 6
+};
 
 #define GOLDEN_ANGLE 137.507764f
 
@@ -95,6 +102,14 @@ static Vec3 bundled(Vec3 along, int k, int bundle, uint64_t key)
     return vec3_normalize(vec3_madd(along, 0.13f, out));
 }
 
+// How young needles are that stand at this share 0..1 of their shoot: those of this year are all of
+// one kind, older ones keep a little of it by chance.
+static float youth(const LeafParams *params, float place, uint64_t key)
+{
+    float chance = random_unit(random_key(key, STREAM_YOUTH));
+    return place > 1.0f - params->flush ? 0.75f + 0.25f * chance : 0.25f * chance * chance;
+}
+
 // All needles of a shoot as one quad, which reaches as far as they do.
 static void add_whole_shoot(Quads *quads, const LeafParams *params, float widen, uint64_t seed)
 {
@@ -104,6 +119,7 @@ static void add_whole_shoot(Quads *quads, const LeafParams *params, float widen,
                      .side = vec3(cosine, 0, sine),
                      .length = params->shoot + 0.5f * params->length,
                      .width = params->width * widen};
+    quads->young = 0.8f * params->flush; // the mean
     add_kite(quads, &needle);
 }
 
@@ -133,8 +149,10 @@ static void add_shoot(Quads *quads, const LeafParams *params, int stride, float 
             .side = vec3_dot(side, side) > 1e-6f ? vec3_normalize(side) : vec3_perpendicular(along),
             .length = params->length * random_range(random_key(key, STREAM_LENGTH), 0.8f, 1.05f),
             .width = params->width * widen};
+        quads->young = youth(params, place, key);
         add_needle(quads, &needle, prisms, stride > 1 || params->side_shoots > 0);
     }
+    quads->young = 0.0f;
     if (stride == 1 && params->side_shoots > 0) {
         const Vec3 axis[2] = {vec3(0, 0, 0), vec3(0, params->shoot, 0)};
         const float radius[2] = {1.1f * params->width, 0.4f * params->width};

@@ -23,6 +23,12 @@ static inline bool needles_branch(const LeafParams *params)
     return params->shape == LEAF_NEEDLES && params->side_shoots > 0;
 }
 
+// Is there growth of this year, paler than the rest?
+static inline bool needles_flush(const LeafParams *params)
+{
+    return params->shape == LEAF_NEEDLES && params->flush > 0.0f;
+}
+
 // Adds the piece along +Y with every needle whose number is a multiple of stride, `widen` times as
 // wide. prisms: needles are three-sided, else flat.
 void needles_add(Quads *quads, const LeafParams *params, int stride, float widen, bool prisms,

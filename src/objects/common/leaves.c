@@ -52,7 +52,8 @@ LeafParams leaves_form(const LeavesParams *leaves, float piece)
                        .compound = leaves->compound,
                        .leaflet_width = leaves->leaflet_width,
                        .taper = leaves->taper,
-                       .comb = leaves->comb};
+                       .comb = leaves->comb,
+                       .flush = leaves->flush};
     // Young leaves are folded and straight.
     if (leaves->emergence < 1.0f) {
         float young = 1.0f - leaves->emergence;

@@ -150,6 +150,9 @@ static const Key LEAVES_KEYS[] = {
      .doc = "Angle between needles or twiglets and their shoot; 0 = the shape's own."},
     {KEY_OF(LeavesParams, comb, "comb", KEY_FLOAT), .high = 1,
      .doc = "How far needles or twiglets are parted to two sides, as a fir's: 0 = all round."},
+    {KEY_OF(LeavesParams, flush, "flush", KEY_FLOAT), .high = 1,
+     .doc = "Shape needles: share of every shoot, at its tip, that grew this year: its needles are "
+            "paler and let more light through. 0 = all needles are of one age."},
     {KEY_OF(LeavesParams, emergence, "emergence", KEY_FLOAT), .high = 1,
      .doc = "Spring: 0 = closed buds, without leaves; between, small, folded and pale leaves; 1 = "
             "full-grown."},

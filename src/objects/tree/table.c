@@ -308,7 +308,8 @@ static const Key TREE_KEYS[] = {
      .doc =
          "Name of a species of the library, or path of a species file relative to this file: all "
          "keys, materials and targets of that file apply, as far as the scene gives no other. "
-         "If it gives another height, lengths of trunk, crown and roots follow; envelopes of the "
+         "If it gives another height, lengths of trunk, crown, roots and light.attractors follow; "
+         "envelopes of the "
          "species lie about the position of the tree. A file "
          "species/NAME.yaml beside the scene comes before the library's."},
     {KEY_OF(TreeParams, position, "position", KEY_VECTOR), .count = 3, .unit = "m",

@@ -190,7 +190,7 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    if (m->kind == MATERIAL_LEAF && point->season != 0.0f) {
+    if (m->kind == MATERIAL_LEAF && (point->season != 0.0f || point->young > 0.0f)) {
         pattern_season(m, point, shade);
     }
     if (APPLY[m->pattern]) {

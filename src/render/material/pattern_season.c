@@ -38,7 +38,7 @@ void pattern_season(const Material *m, const SurfacePoint *point, PatternShade *
         turn(m, point, shade);
         return;
     }
-    float young = fminf(-point->season, 1.0f);
+    float young = fminf(fmaxf(-point->season, point->young), 1.0f);
     Vec3 pale = vec3(1.55f * shade->color.x, 1.35f * shade->color.y, 1.1f * shade->color.z);
     Vec3 thin = vec3(2.1f * shade->transmittance.x, 1.8f * shade->transmittance.y,
                      1.5f * shade->transmittance.z);
