@@ -52,10 +52,11 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"heath", PATTERN_HEATH},
                                     {0}};
 
-static const EnumName BARKS[] = {
-    {"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},   {"birch", BARK_BIRCH},
-    {"smooth", BARK_SMOOTH},     {"fibrous", BARK_FIBROUS}, {"flakes", BARK_FLAKES},
-    {"bands", BARK_BANDS},       {"scales", BARK_SCALES},   {0}};
+static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
+                                 {"birch", BARK_BIRCH},       {"smooth", BARK_SMOOTH},
+                                 {"fibrous", BARK_FIBROUS},   {"flakes", BARK_FLAKES},
+                                 {"bands", BARK_BANDS},       {"scales", BARK_SCALES},
+                                 {"canes", BARK_CANES},       {0}};
 
 static const EnumName DISPLACEMENTS[] = {
     {"auto", DISPLACEMENT_AUTO}, {"off", DISPLACEMENT_OFF}, {"on", DISPLACEMENT_ON}, {0}};
@@ -186,7 +187,8 @@ static const Key MATERIAL_KEYS[] = {
             "of cypress; flakes: patches of several ages from color, the freshest, to color2, as "
             "of plane and eucalyptus; bands: glossy with corky bands (color2) across, as of "
             "cherry; scales: thin scales in layers, redder (color2) where one came off, as of "
-            "spruce."},
+            "spruce; canes: smooth, with rings at nodes and bloom (color2) below them, as of "
+            "bamboo."},
     {KEY_OF(Material, colors, "colors", KEY_LIST), .kinds = PATTERNED,
      .count_offset = offsetof(Material, color_count), .count = 64, .table = &color_stop_table,
      .doc = "Pattern altitude: its colours by altitude, linear between these; none = from color to "

@@ -140,7 +140,7 @@ static void has_no_seam(BarkKind kind)
 static void test_bark_has_no_seam(void **state)
 {
     (void)state;
-    for (int kind = BARK_FURROWED; kind <= BARK_SCALES; kind++) {
+    for (int kind = BARK_FURROWED; kind <= BARK_CANES; kind++) {
         has_no_seam((BarkKind)kind);
     }
 }
@@ -235,7 +235,7 @@ static void test_bark_kinds(void **state)
         double least, most; // change around over change along
     } kinds[] = {{BARK_PLATES, 1.05, 3.0},  {BARK_BIRCH, 0.3, 0.9},   {BARK_SMOOTH, 0.1, 0.95},
                  {BARK_FIBROUS, 3.0, 50.0}, {BARK_FLAKES, 1.02, 2.0}, {BARK_BANDS, 0.1, 0.7},
-                 {BARK_SCALES, 1.02, 2.5}};
+                 {BARK_SCALES, 1.02, 2.5},  {BARK_CANES, 0.05, 0.6}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         Spread trunk = measure_kind(kinds[i].kind, 0.25f, 5e-4f);
         Spread thick = measure_kind(kinds[i].kind, 0.5f, 5e-4f);
@@ -264,7 +264,7 @@ static void without_branch(BarkKind kind)
 static void test_bark_without_branch(void **state)
 {
     (void)state;
-    for (int kind = BARK_FURROWED; kind <= BARK_SCALES; kind++) {
+    for (int kind = BARK_FURROWED; kind <= BARK_CANES; kind++) {
         without_branch((BarkKind)kind);
     }
 }

@@ -94,7 +94,7 @@ static float from_axis(Vec3 p)
 static void rays_meet_the_height_of_the_pattern(void **state)
 {
     (void)state;
-    for (int bark = BARK_FURROWED; bark <= BARK_SCALES; bark++) {
+    for (int bark = BARK_FURROWED; bark <= BARK_CANES; bark++) {
         World *world = stem_world((BarkKind)bark, 0.9f);
         Scan scan = scan_begin(world);
         float pixel = 2.0f * tanf(25.0f * PI_F / 180.0f) / 240.0f;

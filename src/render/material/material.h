@@ -85,7 +85,8 @@ typedef enum BarkKind {
     BARK_FIBROUS,  // long stringy strips: cypress, juniper
     BARK_FLAKES,   // patches of several ages, from color to color2: plane, eucalyptus
     BARK_BANDS,    // glossy, corky bands (color2) across: cherry
-    BARK_SCALES    // thin scales in layers, redder (color2) where one came off: spruce
+    BARK_SCALES,   // thin scales in layers, redder (color2) where one came off: spruce
+    BARK_CANES     // a smooth cane with raised rings at its nodes, bloom (color2) below: bamboo
 } BarkKind;
 
 // How pictures are laid on a surface.

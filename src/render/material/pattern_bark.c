@@ -184,6 +184,8 @@ static BarkLook look_at(const Material *m, const StemPlace *place, float scale, 
         return bark_flakes(m, place, scale, footprint);
     case BARK_SCALES:
         return bark_scales(m, place, scale, footprint);
+    case BARK_CANES:
+        return bark_canes(m, place, scale, footprint);
     default:
         return bark_bands(m, place, scale, footprint);
     }

@@ -72,6 +72,7 @@ BarkLook bark_smooth(const Material *m, const StemPlace *place, float scale, flo
 BarkLook bark_fibrous(const Material *m, const StemPlace *place, float scale, float footprint);
 BarkLook bark_flakes(const Material *m, const StemPlace *place, float scale, float footprint);
 BarkLook bark_scales(const Material *m, const StemPlace *place, float scale, float footprint);
+BarkLook bark_canes(const Material *m, const StemPlace *place, float scale, float footprint);
 BarkLook bark_bands(const Material *m, const StemPlace *place, float scale, float footprint);
 
 #endif
