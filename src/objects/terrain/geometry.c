@@ -152,7 +152,7 @@ static bool add_tiles(const Terrain *terrain, const HeightField *field, const Pl
     Mesh *mesh = done ? tile_mesh_new(field, &grid, &view, &places, placing->recipe->run, e) : NULL;
     DrawnLand land = {
         .terrain = terrain, .field = field, .mesh = mesh, .places = &places, .view = &view};
-    done = placing_add(placing, (Part){.mesh = mesh}, TERRAIN_LAND, e) &&
+    done = mesh && placing_add(placing, (Part){.mesh = mesh}, TERRAIN_LAND, e) &&
            add_cover(&land, placing, e) && move_land(mesh, terrain, e);
     tile_places_clear(&places);
     tile_water_clear(&water);
