@@ -330,6 +330,7 @@ still canyon canyon
 still alps alps
 still tarn tarn
 still alpine-valley alpine-valley
+still tiles tiles
 still volcano volcano
 still waterfall waterfall
 still hills hills

@@ -24,7 +24,8 @@ static const Key CLOUD_KEYS[] = {
             "storm: one cumulonimbus, whose anvil the wind draws out; fog: fills the air from its "
             "base, densest there, up to a wavy top with wisps, out of which higher land stands; "
             "grid: the "
-            "voxels of an OpenVDB file; spray: what waterfalls and surf before cliffs throw up."},
+            "voxels of an OpenVDB file; spray: what waterfalls and surf at cliffs and reefs throw "
+            "up."},
     {KEY_OF(Cloud, file, "file", KEY_FILE), .flags = KEY_REQUIRED, .kinds = BIT(CLOUD_GRID),
      .doc = "VDB file with a grid of floats: a fog volume's values, or the inside of a level set."},
     {KEY_OF(Cloud, grid, "grid", KEY_TEXT), .kinds = BIT(CLOUD_GRID),
@@ -71,7 +72,8 @@ static const Key CLOUD_KEYS[] = {
             "the wind blows to, in shares of its size; 0 = none."},
     {KEY_OF(Cloud, over, "over", KEY_TEXT), .kinds = BIT(CLOUD_FOG) | BIT(CLOUD_SPRAY),
      .doc = "Of spray, which needs it: name of a terrain whose waterfalls, or of a sea whose surf "
-            "before the steep land of its bed throws it up. Of fog: name of a terrain in whose "
+            "throws it up at steep land or at the edges of platforms of its bed. Of fog: name of a "
+            "terrain in whose "
             "hollows and valleys the fog lies, in high ones as in low "
             "ones: its thickness counts from a level that follows the low ground, and base does "
             "not count. Beyond the terrain's rim it goes on as over the terrain's copies. Default: "

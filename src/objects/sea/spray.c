@@ -1,6 +1,8 @@
 // What surf throws up where it meets steep land. Each crest that arrives squeezes water up the rock
 // in jets several times as high as the wave, which part into drops and fall back; fine ones hang in
-// the air until they have drifted off.
+// the air until they have drifted off. At the edge of a platform or a reef, where the bed rises as
+// steeply but land begins farther on, the part of the wave that its shallow water cannot carry on
+// is thrown up; the rest runs on over it.
 //
 // Jets: their speed is a few times that of the wave at the foot, sqrt(g H), and differs from gully
 // to gully and from crest to crest (Peregrine, "Water-Wave Impact on Walls", Annu. Rev. Fluid Mech.
@@ -21,6 +23,9 @@ enum { JETS = 10, MIST = 3 }; // parcels a sample of the shore
 enum { NUMBER_DELAY, NUMBER_SPEED, NUMBER_ASIDE, NUMBER_LEAN, NUMBER_PLACE, NUMBERS };
 
 static const float CLIFF = 1.2f;   // m: least height of steep land within two samples
+static const float EDGE = 1.2f;    // m: least step of the bed within five samples, and
+static const float CARRIES = 0.6f; // share of its depth that the water behind carries on of a wave
+static const float UP = 0.6f;      // share of the rest that is thrown up
 static const float LEAST = 0.35f;  // m: wave height at the foot that splashes at all
 static const float FASTEST = 3.4f; // times sqrt(g H)
 static const float ROW = 14.0f;    // m: size of stretches of the shore that a crest hits alike
@@ -55,6 +60,29 @@ static bool find_wall(const Surf *s, int column, int row, Vec2 *off)
     }
     *off = (Vec2){x / length, z / length};
     return highest < -CLIFF && length > 0.0f && off->x * s->way.x + off->y * s->way.y < -0.15f;
+}
+
+// The share of waves of this height that the edge of a platform throws up; 0 where there is none.
+// It is at the last sample seaward of the middle of a step of the bed. off: unit, in plan, from the
+// land to the water.
+static float edge_share(const Surf *s, int column, int row, float height, Vec2 *off)
+{
+    float x = depth_at(s, column + 1, row) - depth_at(s, column - 1, row);
+    float z = depth_at(s, column, row + 1) - depth_at(s, column, row - 1);
+    float length = sqrtf(x * x + z * z);
+    *off = (Vec2){x / length, z / length};
+    if (!(length > 0.0f) || off->x * s->way.x + off->y * s->way.y > -0.15f) {
+        return 0.0f;
+    }
+    float depth[5]; // from two samples seaward to two landward
+    for (int k = -2; k <= 2; k++) {
+        depth[2 + k] = depth_at(s, column - (int)lrintf((float)k * off->x),
+                                row - (int)lrintf((float)k * off->y));
+    }
+    float middle = 0.5f * (depth[0] + depth[4]);
+    bool here = depth[2] >= middle && depth[3] < middle && depth[0] - depth[4] > EDGE;
+    float kept = CARRIES * fmaxf(depth[4], 0.0f) / height;
+    return here && depth[0] > height ? UP * fmaxf(1.0f - kept, 0.0f) : 0.0f;
 }
 
 // The height of the waves that come in, m: just before the wall they may be lower, since surf keeps
@@ -152,11 +180,12 @@ SprayParcels *sea_spray(const SeaParams *params, const Waves *waves, uint64_t se
             int64_t i = (int64_t)row * shore->columns + column;
             Vec2 at = {shore->origin.x + (float)column * shore->cell,
                        shore->origin.y + (float)row * shore->cell},
-                 off;
-            if (shore->depth[i] > 0.0f && find_wall(&s, column, row, &off)) {
-                float height = height_before(&s, column, row);
-                done = height <= LEAST || splash(&s, i, at, off, height, spray, e);
+                 off = {0};
+            float height = shore->depth[i] > 0.0f ? height_before(&s, column, row) : 0.0f;
+            if (height > LEAST && !find_wall(&s, column, row, &off)) {
+                height *= edge_share(&s, column, row, height, &off);
             }
+            done = height <= LEAST || splash(&s, i, at, off, height, spray, e);
         }
     }
     if (!done) {
