@@ -5,6 +5,7 @@
 #include "image/denoise.h"
 
 #include "base/color.h"
+#include "image/denoise_guides.h"
 #include "image/denoise_parts.h"
 
 #include <math.h>
@@ -198,8 +199,12 @@ static Image *denoise_scales(const DenoiseInput *g, int scales, float strength, 
     Image *coarse = NULL;
     if (half_new(&half, g, e)) {
         fill_half(&half, g, run);
-        DenoiseInput smaller = {half.color, half.albedo,   half.normal,
-                                half.depth, half.variance, half.samples};
+        DenoiseInput smaller = {.color = half.color,
+                                .albedo = half.albedo,
+                                .normal = half.normal,
+                                .depth = half.depth,
+                                .variance = half.variance,
+                                .samples = half.samples};
         coarse = denoise_scales(&smaller, scales - 1, strength, run, e);
     }
     bool done = coarse && correct(g, &half, coarse, run, fine, e);
@@ -224,9 +229,11 @@ static bool check_input(const DenoiseInput *g, Error *e)
     good = good && fits(g->color, g->albedo, 3) && fits(g->color, g->normal, 3);
     good = good && fits(g->color, g->depth, 1) && fits(g->color, g->variance, 1);
     good = good && (!g->samples || fits(g->color, g->samples, 1));
+    good = good && (!g->guide_variance || fits(g->color, g->guide_variance, 2));
     return good || error_set(e, ERROR_INPUT,
-                             "cannot denoise: color, albedo, normal, depth, variance and samples "
-                             "must be of one size and have 3 or 4, 3, 3, 1, 1 and 1 channels");
+                             "cannot denoise: color, albedo, normal, depth, variance, samples and "
+                             "guide variance must be of one size and have 3 or 4, 3, 3, 1, 1, 1 "
+                             "and 2 channels");
 }
 
 static Image *copy_of(const Image *color, Error *e)
@@ -239,11 +246,30 @@ static Image *copy_of(const Image *color, Error *e)
     return copy;
 }
 
+// With guides that are free of noise.
+static Image *denoise_guided(const DenoiseInput *input, float strength, const Run *run, Error *e)
+{
+    Image *albedo, *normal;
+    if (!denoise_guides(input, strength, run, &albedo, &normal, e)) {
+        return NULL;
+    }
+    DenoiseInput guided = *input;
+    guided.albedo = albedo;
+    guided.normal = normal;
+    Image *clean = denoise_scales(&guided, SCALES, strength, run, e);
+    image_free(albedo);
+    image_free(normal);
+    return clean;
+}
+
 Image *image_denoise(const DenoiseInput *input, float strength, const Run *run, Error *e)
 {
     if (!check_input(input, e)) {
         return NULL;
     }
-    return strength > 0.0f ? denoise_scales(input, SCALES, strength, run, e)
-                           : copy_of(input->color, e);
+    if (strength <= 0.0f) {
+        return copy_of(input->color, e);
+    }
+    return input->guide_variance ? denoise_guided(input, strength, run, e)
+                                 : denoise_scales(input, SCALES, strength, run, e);
 }

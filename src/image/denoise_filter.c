@@ -62,14 +62,6 @@ static float log_depth(const Image *depth, int x, int y)
     return isfinite(z) ? logf(fmaxf(z, 1e-3f)) : 20.0f; // beyond any surface: the sky
 }
 
-// Square of the factor k by which differences are weighed against the noise (Rousselle 2012, eq.
-// 2). A variance estimated from n samples is itself uncertain, by about 1 / sqrt(n): too small
-// where no sample met what is rare, so that a narrow k would leave each pixel that did as it is.
-static float tolerance(float samples, float strength)
-{
-    return strength * strength * (0.5f + 12.0f / fmaxf(samples, 12.0f));
-}
-
 static void fill_pixel(const Planes *p, const DenoiseInput *g, float strength, int x, int y)
 {
     int i = denoise_mirror(x, p->width), j = denoise_mirror(y, p->height);
@@ -89,7 +81,7 @@ static void fill_pixel(const Planes *p, const DenoiseInput *g, float strength, i
     float variance = denoise_variance(g->variance, i, j) / (scale * scale);
     float samples = g->samples ? g->samples->pixel[from] : INFINITY;
     p->plane[PLANE_VARIANCE][to] = variance;
-    p->plane[PLANE_TOLERANCE][to] = tolerance(samples, strength) * variance;
+    p->plane[PLANE_TOLERANCE][to] = denoise_tolerance(samples, strength) * variance;
     float z = log_depth(g->depth, i, j);
     float dx =
         fminf(fabsf(log_depth(g->depth, i + 1, j) - z), fabsf(log_depth(g->depth, i - 1, j) - z));

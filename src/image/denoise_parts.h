@@ -29,6 +29,14 @@ static inline void denoise_divisor(const float *albedo, float divisor[3])
     }
 }
 
+// Square of the factor k by which differences are weighed against the noise (Rousselle 2012, eq.
+// 2). A variance estimated from n samples is itself uncertain, by about 1 / sqrt(n): too small
+// where no sample met what is rare, so that a narrow k would leave each pixel that did as it is.
+static inline float denoise_tolerance(float samples, float strength)
+{
+    return strength * strength * (0.5f + 12.0f / fmaxf(samples, 12.0f));
+}
+
 static inline float denoise_finite(float x)
 {
     return isfinite(x) ? x : 0.0f;

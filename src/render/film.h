@@ -24,6 +24,7 @@ typedef enum FilmMean {
     MEAN_ALPHA,
     MEAN_LIGHT_SHARE,
     MEAN_SKY_SHARE,
+    MEAN_ALBEDO_SQUARE,
     FILM_MEANS
 } FilmMean;
 
@@ -43,11 +44,12 @@ typedef struct Film {
     Vec3 *normal;       // its shading normal, world, mean (not unit)
     float *light_share; // share of these samples
     float *sky_share;
-    float *depth;    // m along the ray, mean over samples that hit; INFINITY where none did
-    Vec3 *position;  // m, first hit, mean over samples that hit; 0 where none
-    float *object;   // object id + 1 of the first sample that hit; 0 = background
-    float *hits;     // samples that met a surface: what depth and position are means over
-    float *samples;  // taken so far
+    float *albedo_square; // of the albedo's luminance, mean: tells its noise (film_guide_noise)
+    float *depth;         // m along the ray, mean over samples that hit; INFINITY where none did
+    Vec3 *position;       // m, first hit, mean over samples that hit; 0 where none
+    float *object;        // object id + 1 of the first sample that hit; 0 = background
+    float *hits;          // samples that met a surface: what depth and position are means over
+    float *samples;       // taken so far
     float *variance; // of the pixel's mean luminance, estimated; for adaptive stopping, denoising
     float *mean[FILM_MEANS];             // the planes above by FilmMean
     float *rest[FILM_MEANS][FILM_RESTS]; // quanta, whole numbers, coarse and fine; bounded values
@@ -57,7 +59,7 @@ typedef struct Film {
 } Film;
 
 // Bytes of a pixel in all planes.
-#define FILM_PIXEL_BYTES (7.0 * sizeof(Vec3) + (8.0 + 35.0 + FILM_SQUARE_LIMBS) * sizeof(float))
+#define FILM_PIXEL_BYTES (7.0 * sizeof(Vec3) + (9.0 + 36.0 + FILM_SQUARE_LIMBS) * sizeof(float))
 
 // Returns NULL with ERROR_MEMORY, before it allocates, when memory is too small.
 Film *film_new(int width, int height, Error *e);
@@ -76,7 +78,7 @@ typedef struct FilmPlane {
 } FilmPlane;
 
 // All planes but `denoised`: what a rendering can be resumed from.
-enum { FILM_PLANES = 30 };
+enum { FILM_PLANES = 32 };
 void film_planes(const Film *film, FilmPlane plane[FILM_PLANES]);
 
 // Pixels x0 <= x < x1, y0 <= y < y1.
@@ -86,6 +88,10 @@ typedef struct PixelBox {
 
 // The pixels of a crop (see FilmParams) of a picture.
 PixelBox film_crop_pixels(int width, int height, const float crop[4]);
+
+// Variances of pixel i's mean albedo (of its luminance) and normal (of the vector), estimated from
+// its samples: large where leaves share the pixel or the lens blurs. 0 with fewer than two.
+void film_guide_noise(const Film *film, int64_t i, float *albedo, float *normal);
 
 // Has every pixel of the crop a sample? False after a first pass that was cancelled.
 bool film_is_complete(const Film *film, const float crop[4]);

@@ -1,5 +1,7 @@
 #include "render/film_merge.h"
 
+#include "base/color.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -29,6 +31,7 @@ static const Mean MEANS[FILM_MEANS] = {
     [MEAN_ALPHA] = {19, 1, UNIT, 1.0f, false},
     [MEAN_LIGHT_SHARE] = {20, 1, UNIT, 1.0f, false},
     [MEAN_SKY_SHARE] = {21, 1, UNIT, 1.0f, false},
+    [MEAN_ALBEDO_SQUARE] = {22, 1, UNIT, 1.0f, false},
 };
 enum {
     WIDE_CHANNELS = 13,
@@ -41,7 +44,8 @@ enum {
     NORMAL = 16,
     ALPHA = 19,
     LIGHT_SHARE = 20,
-    SKY_SHARE = 21
+    SKY_SHARE = 21,
+    ALBEDO_SQUARE = 22
 };
 
 // ---- paths
@@ -57,6 +61,8 @@ static void put_path(const PathResult *path, float value[FILM_CHANNELS])
 {
     put_vector(value + COLOR, path->color);
     put_vector(value + ALBEDO, path->albedo);
+    float bright = luminance(path->albedo);
+    value[ALBEDO_SQUARE] = bright * bright;
     value[ALPHA] = path->alpha;
     if (path->seen != SEEN_SURFACE) {
         bool light = path->seen == SEEN_LIGHT;

@@ -14,7 +14,7 @@
 #include "render/integrator.h"
 
 enum {
-    FILM_CHANNELS = 24, // of all means, the last two unused
+    FILM_CHANNELS = 24, // of all means, the last unused
     MOST_ADDED = 64     // samples of one PathSum: more might not be exact
 };
 

@@ -132,6 +132,15 @@ static Image *variance_image(const Film *film, const Image *beauty, Error *e)
     return image;
 }
 
+static Image *guide_variance_image(const Film *film, Error *e)
+{
+    Image *image = image_new(film->width, film->height, 2, e);
+    for (int64_t i = 0; image && i < (int64_t)film->width * film->height; i++) {
+        film_guide_noise(film, i, &image->pixel[2 * i], &image->pixel[2 * i + 1]);
+    }
+    return image;
+}
+
 static Image *denoised_image(const Scene *scene, const Image *beauty, const Film *film,
                              const Run *run, Error *e)
 {
@@ -139,15 +148,17 @@ static Image *denoised_image(const Scene *scene, const Image *beauty, const Film
     if (!picture_find_denoiser(scene, &oidn, run, e)) {
         return NULL;
     }
-    Image *guides[] = {plane_image(film, film->albedo, 3, e), plane_image(film, film->normal, 3, e),
-                       plane_image(film, film->depth, 1, e), variance_image(film, beauty, e),
-                       plane_image(film, film->samples, 1, e)};
+    Image *guides[] = {
+        plane_image(film, film->albedo, 3, e),  plane_image(film, film->normal, 3, e),
+        plane_image(film, film->depth, 1, e),   variance_image(film, beauty, e),
+        plane_image(film, film->samples, 1, e), guide_variance_image(film, e)};
     enum { GUIDES = sizeof guides / sizeof guides[0] };
     bool made = true;
     for (int i = 0; i < GUIDES; i++) {
         made = made && guides[i];
     }
-    const DenoiseInput input = {beauty, guides[0], guides[1], guides[2], guides[3], guides[4]};
+    const DenoiseInput input = {beauty,    guides[0], guides[1], guides[2],
+                                guides[3], guides[4], guides[5]};
     Image *clean = NULL;
     if (made) {
         clean = oidn ? image_denoise_oidn(beauty, guides[0], guides[1], run, e)
