@@ -289,6 +289,31 @@ static void rivers_run_in_drawn_beds(void **state)
     drop(&m);
 }
 
+// Water that falls does so in the square alone, over the drawn land and as far down as it.
+static void water_falls_over_drawn_land(void **state)
+{
+    (void)state;
+    Made m;
+    TerrainParams params = land_of_rivers();
+    params.rivers.fall_height = 2.0f;
+    params.rivers.fall_slope = 0.4f;
+    make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
+    check_land(&m);
+    int64_t falls = 0, vertices = 0, under = 0;
+    for (int64_t k = 2; k + 8 < m.geometry.count; k++, falls++) {
+        const Mesh *mesh = m.geometry.part[k].mesh;
+        for (int64_t i = 0; i < mesh->vertex_count; i++, vertices++) {
+            Vec3 p = mesh->position[i], own = vec3_sub(p, params.position);
+            assert_true(fabsf(own.x) < 2001.0f && fabsf(own.z) < 2001.0f);
+            under += p.y < land_below(&m, p) - 0.5f;
+        }
+    }
+    print_message("%d falls: %d of %d vertices under the land\n", (int)falls, (int)under,
+                  (int)vertices);
+    assert_true(falls > 3 && under < vertices / 50);
+    drop(&m);
+}
+
 // Each tree's foot is 0.06 of its height below the drawn land, and none stands in water.
 static void trees_stand_on_drawn_land(void **state)
 {
@@ -355,7 +380,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(places_tell_the_drawn_height), cmocka_unit_test(lakes_end_at_drawn_shores),
         cmocka_unit_test(rivers_run_in_drawn_beds),     cmocka_unit_test(trees_stand_on_drawn_land),
-        cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(water_falls_over_drawn_land),  cmocka_unit_test(threads_change_no_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
