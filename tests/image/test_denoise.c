@@ -83,8 +83,8 @@ static Image *denoise(const Scene *s, float strength, int threads)
     Run run = run_default();
     run.threads = threads;
     return image_denoise(
-        &(DenoiseInput){s->noisy, s->albedo, s->normal, s->depth, s->variance, NULL}, strength,
-        &run, NULL);
+        &(DenoiseInput){s->noisy, s->albedo, s->normal, s->depth, s->variance, NULL, NULL},
+        strength, &run, NULL);
 }
 
 static double rmse(const Image *a, const Image *b)
@@ -248,13 +248,15 @@ static void test_refuses_and_stops(void **state)
     Scene s = make_scene(0.2f);
     Run run = run_default();
     Error e = {0};
-    assert_null(image_denoise(
-        &(DenoiseInput){s.noisy, s.depth, s.normal, s.depth, s.variance, NULL}, 1.0f, &run, &e));
+    assert_null(
+        image_denoise(&(DenoiseInput){s.noisy, s.depth, s.normal, s.depth, s.variance, NULL, NULL},
+                      1.0f, &run, &e));
     assert_int_equal(e.code, ERROR_INPUT);
     volatile int cancelled = 1;
     run.cancelled = &cancelled;
-    assert_null(image_denoise(
-        &(DenoiseInput){s.noisy, s.albedo, s.normal, s.depth, s.variance, NULL}, 1.0f, &run, &e));
+    assert_null(
+        image_denoise(&(DenoiseInput){s.noisy, s.albedo, s.normal, s.depth, s.variance, NULL, NULL},
+                      1.0f, &run, &e));
     assert_int_equal(e.code, ERROR_CANCELLED);
     free_scene(&s);
 }
@@ -283,7 +285,7 @@ static void test_variance_of_few_samples(void **state)
         samples->pixel[i] = SAMPLES;
     }
     Run run = run_default();
-    DenoiseInput input = {s.noisy, s.albedo, s.normal, s.depth, s.variance, NULL};
+    DenoiseInput input = {s.noisy, s.albedo, s.normal, s.depth, s.variance, NULL, NULL};
     Image *trusting = image_denoise(&input, 1.0f, &run, NULL);
     input.samples = samples;
     Image *wary = image_denoise(&input, 1.0f, &run, NULL);
@@ -325,7 +327,7 @@ static double glints_left(const float albedo[3])
         samples->pixel[i] = SAMPLES;
     }
     Run run = run_default();
-    DenoiseInput input = {s.noisy, s.albedo, s.normal, s.depth, s.variance, samples};
+    DenoiseInput input = {s.noisy, s.albedo, s.normal, s.depth, s.variance, samples, NULL};
     Image *out = image_denoise(&input, 1.0f, &run, NULL);
     assert_non_null(out);
     double left = rmse(out, s.truth) / rmse(s.noisy, s.truth);
@@ -347,6 +349,89 @@ static void test_white_glints_on_colour(void **state)
 }
 
 // Smaller than the search window, with broken pixels and alpha.
+// A wood out of focus beside a striped wall: samples meet leaves or sky at random, so that albedo,
+// normal and colour of a pixel share the noise of what it happened to meet.
+static Scene make_blurred(int samples)
+{
+    Scene s = make_scene(0.0f);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        int x = i % WIDTH, y = i / WIDTH;
+        if (x < WIDTH / 2) {
+            float wall = y / 3 % 2 ? 0.6f : 0.3f;
+            set_pixel(s.albedo, x, y, wall, wall, wall);
+            set_pixel(s.normal, x, y, 0, 0, 1);
+            set_pixel(s.truth, x, y, wall, wall, wall);
+            set_pixel(s.noisy, x, y, wall, wall, wall);
+            s.variance->pixel[i] = 0.0f;
+        } else {
+            int leaves = 0;
+            for (int k = 0; k < samples; k++) {
+                leaves += random_unit(random_key(9, (uint64_t)(i * samples + k))) < 0.5f;
+            }
+            float share = (float)leaves / (float)samples, albedo = 1.0f - 0.8f * share;
+            float color = 1.0f - 0.9f * share, n = (float)(samples - 1);
+            set_pixel(s.albedo, x, y, albedo, albedo, albedo);
+            set_pixel(s.normal, x, y, 0, share, 0);
+            set_pixel(s.noisy, x, y, color, color, color);
+            set_pixel(s.truth, x, y, 0.55f, 0.55f, 0.55f);
+            s.variance->pixel[i] = 0.81f * share * (1.0f - share) / n;
+        }
+        s.depth->pixel[i] = 5.0f;
+    }
+    return s;
+}
+
+static double error_of(const Image *image, const Image *truth, int from, int to)
+{
+    double sum = 0.0;
+    for (int y = 4; y < HEIGHT - 4; y++) {
+        for (int x = from; x < to; x++) {
+            double d =
+                (double)(image->pixel[3 * (y * WIDTH + x)] - truth->pixel[3 * (y * WIDTH + x)]);
+            sum += d * d / ((HEIGHT - 8.0) * (to - from));
+        }
+    }
+    return sqrt(sum);
+}
+
+// With the variance of its guides the blurred wood is smooth, where it kept its stipple; the wall,
+// whose guides have none, keeps its stripes.
+static void test_noise_of_guides(void **state)
+{
+    (void)state;
+    Scene s = make_blurred(12);
+    Image *guide_variance = image_new(WIDTH, HEIGHT, 2, NULL);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        float share = s.normal->pixel[3 * i + 1], spread = share * (1.0f - share) / 11.0f;
+        bool wood = i % WIDTH >= WIDTH / 2;
+        guide_variance->pixel[2 * i] = wood ? 0.64f * spread : 0.0f;
+        guide_variance->pixel[2 * i + 1] = wood ? spread : 0.0f;
+    }
+    const Run run = run_default();
+    DenoiseInput input = {.color = s.noisy,
+                          .albedo = s.albedo,
+                          .normal = s.normal,
+                          .depth = s.depth,
+                          .variance = s.variance};
+    Image *plain = image_denoise(&input, 1.0f, &run, NULL);
+    input.guide_variance = guide_variance;
+    Image *guided = image_denoise(&input, 1.0f, &run, NULL);
+    Run one = run;
+    one.threads = 1;
+    Image *alone = image_denoise(&input, 1.0f, &one, NULL);
+    double before = error_of(plain, s.truth, WIDTH / 2 + 8, WIDTH);
+    double after = error_of(guided, s.truth, WIDTH / 2 + 8, WIDTH);
+    assert_true(before > 0.12); // all of it
+    assert_true(after < 0.45 * before);
+    assert_true(error_of(guided, s.truth, 0, WIDTH / 2 - 4) < 1e-3);
+    assert_memory_equal(guided->pixel, alone->pixel, WIDTH * HEIGHT * 3 * sizeof(float));
+    image_free(plain);
+    image_free(guided);
+    image_free(alone);
+    image_free(guide_variance);
+    free_scene(&s);
+}
+
 static void test_tiny_image(void **state)
 {
     (void)state;
@@ -360,8 +445,8 @@ static void test_tiny_image(void **state)
         depth->pixel[i] = 1.0f;
     }
     Run run = run_default();
-    Image *out = image_denoise(&(DenoiseInput){color, albedo, normal, depth, variance, NULL}, 1.0f,
-                               &run, NULL);
+    Image *out = image_denoise(&(DenoiseInput){color, albedo, normal, depth, variance, NULL, NULL},
+                               1.0f, &run, NULL);
     assert_non_null(out);
     for (int i = 0; i < 6; i++) {
         assert_true(out->pixel[4 * i] >= 0.0f && out->pixel[4 * i] <= 1.0f);
@@ -387,6 +472,7 @@ int main(void)
         cmocka_unit_test(test_refuses_and_stops),
         cmocka_unit_test(test_variance_of_few_samples),
         cmocka_unit_test(test_white_glints_on_colour),
+        cmocka_unit_test(test_noise_of_guides),
         cmocka_unit_test(test_tiny_image),
         cmocka_unit_test(test_silhouettes_do_not_glow),
     };
