@@ -1,6 +1,5 @@
-// Guides of a denoiser without their own noise. Leaves that share a pixel and a lens that blurs
-// give albedo and normal the noise of few samples; a filter that divides by the one and follows
-// both keeps it as stipple.
+// Guides of a denoiser without their own noise. A lens that blurs gives albedo and normal the noise
+// of few samples; a filter that divides by the one and follows both keeps it as stipple.
 #ifndef RAMIFY_IMAGE_DENOISE_GUIDES_H
 #define RAMIFY_IMAGE_DENOISE_GUIDES_H
 

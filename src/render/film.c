@@ -23,6 +23,7 @@ static const struct {
     [MEAN_LIGHT_SHARE] = {"light_share", "V", {"light_share_rest"}},
     [MEAN_SKY_SHARE] = {"sky_share", "V", {"sky_share_rest"}},
     [MEAN_ALBEDO_SQUARE] = {"albedo_square", "V", {"albedo_square_rest"}},
+    [MEAN_BLUR] = {"blur", "V", {"blur_rest"}},
 };
 
 static bool film_make_means(Film *film, int64_t count, Error *e)
@@ -49,6 +50,7 @@ static bool film_make_means(Film *film, int64_t count, Error *e)
     film->light_share = film->mean[MEAN_LIGHT_SHARE];
     film->sky_share = film->mean[MEAN_SKY_SHARE];
     film->albedo_square = film->mean[MEAN_ALBEDO_SQUARE];
+    film->blur = film->mean[MEAN_BLUR];
     return true;
 }
 
@@ -148,15 +150,11 @@ bool film_is_complete(const Film *film, const float crop[4])
 void film_guide_noise(const Film *film, int64_t i, float *albedo, float *normal)
 {
     float n = film->samples[i], mean = luminance(film->albedo[i]);
-    float others = fmaxf(n - 1.0f, 1.0f);
     // normals are unit vectors, or 0 where no surface was met
     float share = n > 0.0f ? film->hits[i] / n : 0.0f;
-    *albedo = n > 1.0f ? fmaxf(film->albedo_square[i] - mean * mean, 0.0f) / others : 0.0f;
-    *normal =
-        n > 1.0f ? fmaxf(share - vec3_dot(film->normal[i], film->normal[i]), 0.0f) / others : 0.0f;
-    // what rounding leaves of a difference of equals is none
-    *albedo = *albedo * others > 1e-6f ? *albedo : 0.0f;
-    *normal = *normal * others > 1e-5f ? *normal : 0.0f;
+    float of_mean = n > 1.0f ? film->blur[i] / (n - 1.0f) : 0.0f;
+    *albedo = of_mean * fmaxf(film->albedo_square[i] - mean * mean, 0.0f);
+    *normal = of_mean * fmaxf(share - vec3_dot(film->normal[i], film->normal[i]), 0.0f);
 }
 
 void film_forget(Film *film, const float crop[4])
@@ -172,8 +170,8 @@ void film_forget(Film *film, const float crop[4])
 void film_planes(const Film *film, FilmPlane plane[FILM_PLANES])
 {
     static const FilmMean order[FILM_MEANS] = {
-        MEAN_COLOR, MEAN_ALPHA, MEAN_ALBEDO,      MEAN_NORMAL,    MEAN_DEPTH,        MEAN_POSITION,
-        MEAN_LIGHT, MEAN_SKY,   MEAN_LIGHT_SHARE, MEAN_SKY_SHARE, MEAN_ALBEDO_SQUARE};
+        MEAN_COLOR, MEAN_ALPHA, MEAN_ALBEDO,      MEAN_NORMAL,    MEAN_DEPTH,         MEAN_POSITION,
+        MEAN_LIGHT, MEAN_SKY,   MEAN_LIGHT_SHARE, MEAN_SKY_SHARE, MEAN_ALBEDO_SQUARE, MEAN_BLUR};
     const FilmPlane others[] = {{film->object, "object", "V"},
                                 {film->samples, "samples", "V"},
                                 {film->hits, "hits", "V"},

@@ -25,6 +25,7 @@ typedef enum FilmMean {
     MEAN_LIGHT_SHARE,
     MEAN_SKY_SHARE,
     MEAN_ALBEDO_SQUARE,
+    MEAN_BLUR,
     FILM_MEANS
 } FilmMean;
 
@@ -44,7 +45,8 @@ typedef struct Film {
     Vec3 *normal;       // its shading normal, world, mean (not unit)
     float *light_share; // share of these samples
     float *sky_share;
-    float *albedo_square; // of the albedo's luminance, mean: tells its noise (film_guide_noise)
+    float *albedo_square; // of the albedo's luminance, mean
+    float *blur;          // share of samples out of focus by more than a pixel
     float *depth;         // m along the ray, mean over samples that hit; INFINITY where none did
     Vec3 *position;       // m, first hit, mean over samples that hit; 0 where none
     float *object;        // object id + 1 of the first sample that hit; 0 = background
@@ -59,7 +61,7 @@ typedef struct Film {
 } Film;
 
 // Bytes of a pixel in all planes.
-#define FILM_PIXEL_BYTES (7.0 * sizeof(Vec3) + (9.0 + 36.0 + FILM_SQUARE_LIMBS) * sizeof(float))
+#define FILM_PIXEL_BYTES (7.0 * sizeof(Vec3) + (10.0 + 37.0 + FILM_SQUARE_LIMBS) * sizeof(float))
 
 // Returns NULL with ERROR_MEMORY, before it allocates, when memory is too small.
 Film *film_new(int width, int height, Error *e);
@@ -78,7 +80,7 @@ typedef struct FilmPlane {
 } FilmPlane;
 
 // All planes but `denoised`: what a rendering can be resumed from.
-enum { FILM_PLANES = 32 };
+enum { FILM_PLANES = 34 };
 void film_planes(const Film *film, FilmPlane plane[FILM_PLANES]);
 
 // Pixels x0 <= x < x1, y0 <= y < y1.
@@ -89,8 +91,9 @@ typedef struct PixelBox {
 // The pixels of a crop (see FilmParams) of a picture.
 PixelBox film_crop_pixels(int width, int height, const float crop[4]);
 
-// Variances of pixel i's mean albedo (of its luminance) and normal (of the vector), estimated from
-// its samples: large where leaves share the pixel or the lens blurs. 0 with fewer than two.
+// Variances of pixel i's mean albedo (of its luminance) and normal (of the vector) where the lens
+// blurs it, estimated from its samples. 0 with fewer than two, and in focus, where what differs
+// from pixel to pixel is detail as well as noise.
 void film_guide_noise(const Film *film, int64_t i, float *albedo, float *normal);
 
 // Has every pixel of the crop a sample? False after a first pass that was cancelled.

@@ -32,6 +32,7 @@ static const Mean MEANS[FILM_MEANS] = {
     [MEAN_LIGHT_SHARE] = {20, 1, UNIT, 1.0f, false},
     [MEAN_SKY_SHARE] = {21, 1, UNIT, 1.0f, false},
     [MEAN_ALBEDO_SQUARE] = {22, 1, UNIT, 1.0f, false},
+    [MEAN_BLUR] = {23, 1, UNIT, 1.0f, false},
 };
 enum {
     WIDE_CHANNELS = 13,
@@ -45,7 +46,8 @@ enum {
     ALPHA = 19,
     LIGHT_SHARE = 20,
     SKY_SHARE = 21,
-    ALBEDO_SQUARE = 22
+    ALBEDO_SQUARE = 22,
+    BLUR = 23
 };
 
 // ---- paths
@@ -63,6 +65,7 @@ static void put_path(const PathResult *path, float value[FILM_CHANNELS])
     put_vector(value + ALBEDO, path->albedo);
     float bright = luminance(path->albedo);
     value[ALBEDO_SQUARE] = bright * bright;
+    value[BLUR] = 1.0f - path->sharpness;
     value[ALPHA] = path->alpha;
     if (path->seen != SEEN_SURFACE) {
         bool light = path->seen == SEEN_LIGHT;

@@ -14,7 +14,7 @@
 #include "render/integrator.h"
 
 enum {
-    FILM_CHANNELS = 24, // of all means, the last unused
+    FILM_CHANNELS = 24, // of all means
     MOST_ADDED = 64     // samples of one PathSum: more might not be exact
 };
 

@@ -38,8 +38,6 @@ static float sharpness(const CameraFrame *camera, float near)
 void first_seen(const Tracer *tracer, const Ray *ray, bool met, const Hit *hit, PathResult *result)
 {
     result->seen = met ? kind_of_hit(tracer, hit) : kind_of_miss(tracer, ray->direction);
-    if (result->seen != SEEN_SURFACE) {
-        float depth = met ? hit->t * vec3_dot(ray->direction, tracer->camera.forward) : INFINITY;
-        result->sharpness = sharpness(&tracer->camera, 1.0f / depth);
-    }
+    float depth = met ? hit->t * vec3_dot(ray->direction, tracer->camera.forward) : INFINITY;
+    result->sharpness = sharpness(&tracer->camera, 1.0f / depth);
 }

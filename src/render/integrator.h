@@ -57,7 +57,7 @@ typedef struct PathResult {
     float alpha;
     int64_t rays;
     SeenKind seen;
-    float sharpness; // of sky and lights: 1, or less where the lens blurs by more than a pixel
+    float sharpness; // 1, or less where the lens blurs by more than a pixel
     bool hit;
     Vec3 albedo, normal, position;
     float depth; // m along the ray

@@ -60,7 +60,7 @@ bool picture_write_exr(const char *file, const Scene *scene, const Film *film, b
 #define PICTURE_MARK "ramify:frame"
 #define PICTURE_VERSION "ramify:version" // key of the program's version
 #define PICTURE_FILM "ramify:film"       // key of the layout of the film's planes in an .exr
-#define PICTURE_FILM_LAYOUT ("ramify " RAMIFY_VERSION ", exact sums, squares of albedo")
+#define PICTURE_FILM_LAYOUT ("ramify " RAMIFY_VERSION ", exact sums, albedo_square and blur")
 #define PICTURE_SCENE "ramify:scene"       // key of the text of the scene file
 #define PICTURE_SETTINGS "ramify:settings" // key of the scene as YAML with every setting
 bool picture_write_marked(const char *file, const Scene *scene, const Film *film, const char *mark,
