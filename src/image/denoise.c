@@ -133,7 +133,7 @@ static void find_correction(const DenoiseInput *g, const Half *h, const Image *f
         correction[c] = coarse->pixel[3 * block + c] / divisor[c] - mean[c] / count;
         square += weight[c] * correction[c] * correction[c] * (1.0f / 3.0f);
     }
-    float variance = denoise_variance(h->variance, x, y) / (scale * scale);
+    float variance = denoise_variance(h->variance, 0, x, y) / (scale * scale);
     float kept = expf(-square / (EXPLAINED * variance + 1e-20f));
     for (int c = 0; c < 3; c++) {
         correction[c] *= kept;

@@ -78,7 +78,7 @@ static void fill_pixel(const Planes *p, const DenoiseInput *g, float strength, i
         p->plane[PLANE_ALBEDO + c][to] = albedo[c];
         p->plane[PLANE_NORMAL + c][to] = denoise_finite(g->normal->pixel[3 * from + c]);
     }
-    float variance = denoise_variance(g->variance, i, j) / (scale * scale);
+    float variance = denoise_variance(g->variance, 0, i, j) / (scale * scale);
     float samples = g->samples ? g->samples->pixel[from] : INFINITY;
     p->plane[PLANE_VARIANCE][to] = variance;
     p->plane[PLANE_TOLERANCE][to] = denoise_tolerance(samples, strength) * variance;

@@ -36,18 +36,6 @@ static bool planes_new(Planes *p, int width, int height, Error *e)
     return p->data;
 }
 
-// Mean of a channel over 3 x 3 pixels: individual variances are noisy themselves.
-static float smooth(const Image *image, int channel, int x, int y)
-{
-    float sum = 0.0f;
-    for (int k = 0; k < 9; k++) {
-        int i = denoise_mirror(x + k % 3 - 1, image->width);
-        int j = denoise_mirror(y + k / 3 - 1, image->height);
-        sum += image->pixel[((int64_t)j * image->width + i) * image->channels + channel];
-    }
-    return sum / 9.0f;
-}
-
 static void fill_pixel(const Planes *p, const DenoiseInput *g, float strength, int x, int y)
 {
     int i = denoise_mirror(x, p->width), j = denoise_mirror(y, p->height);
@@ -56,8 +44,9 @@ static void fill_pixel(const Planes *p, const DenoiseInput *g, float strength, i
         p->value[c][to] = g->albedo->pixel[3 * from + c];
         p->value[3 + c][to] = denoise_finite(g->normal->pixel[3 * from + c]);
     }
-    p->albedo_noise[to] = smooth(g->guide_variance, 0, i, j);
-    p->normal_noise[to] = smooth(g->guide_variance, 1, i, j) * (1.0f / 3.0f); // of a component
+    p->albedo_noise[to] = denoise_variance(g->guide_variance, 0, i, j);
+    p->normal_noise[to] =
+        denoise_variance(g->guide_variance, 1, i, j) * (1.0f / 3.0f); // of a component
     p->tolerance[to] = denoise_tolerance(g->samples ? g->samples->pixel[from] : INFINITY, strength);
 }
 

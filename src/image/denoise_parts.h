@@ -42,14 +42,15 @@ static inline float denoise_finite(float x)
     return isfinite(x) ? x : 0.0f;
 }
 
-// Mean of a 3 x 3 neighbourhood: individual variances are noisy themselves.
-static inline float denoise_variance(const Image *variance, int x, int y)
+// Mean of a channel over a 3 x 3 neighbourhood: individual variances are noisy themselves.
+static inline float denoise_variance(const Image *variance, int channel, int x, int y)
 {
     float sum = 0.0f;
     for (int k = 0; k < 9; k++) {
         int i = denoise_mirror(x + k % 3 - 1, variance->width);
         int j = denoise_mirror(y + k / 3 - 1, variance->height);
-        sum += denoise_finite(variance->pixel[(int64_t)j * variance->width + i]);
+        int64_t at = (int64_t)j * variance->width + i;
+        sum += denoise_finite(variance->pixel[at * variance->channels + channel]);
     }
     return sum / 9.0f;
 }
