@@ -234,7 +234,7 @@ static const ManualText TEXTS[] = {
                     "tracing takes the time divided by the number of processors."},
      .examples = {{"what is in it", "ramify info pine.yaml"},
                   {"what a large picture will take, on a machine with 16 GB",
-                   "ramify info pine.yaml --estimate --size 7680x4320 --memory 16G"},
+                   "ramify info pine.yaml --estimate --size 7680x4320 --memory 20G"},
                   {"every key with its value, also those that the file leaves out",
                    "ramify info pine.yaml --resolved"},
                   {"the keys that --set can change in it", "ramify info pine.yaml --paths"}}},

@@ -15,7 +15,7 @@
 
 // Measured on x86-64 with Embree 3.12.
 #define PROGRAM_BYTES 1.4e8     // the program and its libraries
-#define PIXEL_WRITE_BYTES 225.0 // per pixel while denoising and writing
+#define PIXEL_WRITE_BYTES 195.0 // per pixel while denoising and writing
 
 static Needs needs_of(const Scene *scene, int only)
 {
