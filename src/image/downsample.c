@@ -2,8 +2,6 @@
 
 #include "image/tone_curve.h"
 
-#include <string.h>
-
 // The mean of the factor x factor pixels whose first is at `first`.
 static void mean_of(const Image *image, const float *first, int factor, float *out)
 {
@@ -32,11 +30,6 @@ Image *image_downsample(const Image *image, int factor, Error *e)
     Image *out = image_new(width, height, image->channels, e);
     if (!out) {
         return NULL;
-    }
-    if (factor == 1) {
-        size_t values = (size_t)width * (size_t)height * (size_t)image->channels;
-        memcpy(out->pixel, image->pixel, values * sizeof(float));
-        return out;
     }
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < height; y++) {

@@ -8,7 +8,7 @@
 
 // The mean of each factor x factor pixels, as light: sRGB display values are made linear, weighted
 // by alpha, and encoded again. image: 3 or 4 channels, 0..1, alpha straight; factor divides its
-// width and height; 1 copies. The caller frees the result; NULL and e when out of memory.
+// width and height. The caller frees the result; NULL and e when out of memory.
 Image *image_downsample(const Image *image, int factor, Error *e);
 
 #endif

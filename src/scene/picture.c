@@ -250,11 +250,13 @@ Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const
 static bool write_developed(const char *file, const Scene *scene, const Image *display,
                             const char *metadata, Error *e)
 {
-    Image *shown = image_downsample(display, scene->downsample, e);
+    bool reduced = scene->downsample > 1;
+    Image *small = reduced ? image_downsample(display, scene->downsample, e) : NULL;
+    const Image *shown = reduced ? small : display;
     bool deep = scene->png_depth == 16 && file_name_ends(file, ".png");
     bool done = shown && (deep ? image_write_display16(file, shown, metadata, e)
                                : image_write_display(file, shown, metadata, e));
-    image_free(shown);
+    image_free(small);
     return done;
 }
 

@@ -99,22 +99,12 @@ static void test_alpha(void **state)
     image_free(nothing);
 }
 
-static void test_copy(void **state)
-{
-    (void)state;
-    Image *image = uneven(5, 3, 4), *same = image_downsample(image, 1, NULL);
-    assert_memory_equal(image->pixel, same->pixel, 60 * sizeof(float));
-    image_free(image);
-    image_free(same);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_means),
         cmocka_unit_test(test_light),
         cmocka_unit_test(test_alpha),
-        cmocka_unit_test(test_copy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

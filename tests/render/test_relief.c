@@ -178,6 +178,19 @@ static void far_stems_and_copies_keep_bumps(void **state)
     }
 }
 
+// On an upright stem whose axis is y: at this height, in the direction n, u m around.
+static SurfacePoint stem_point(Vec3 n, float u, float y)
+{
+    return (SurfacePoint){.object_position = vec3_madd(vec3(0, y, 0), RADIUS, n),
+                          .geometric_normal = n,
+                          .normal = n,
+                          .tangent_u = vec3(n.z, 0, -n.x),
+                          .tangent_v = vec3(0, 1, 0),
+                          .uv = {u, y},
+                          .radius = RADIUS,
+                          .footprint = 1e-4f};
+}
+
 // Moss is on the north side (-z) and near the foot; scars make dents and rings.
 static void moss_and_scars_grow_where_they_are_asked_for(void **state)
 {
@@ -192,14 +205,7 @@ static void moss_and_scars_grow_where_they_are_asked_for(void **state)
         float angle = 0.1f * (float)(i % 20 - 10), y = 0.001f * (float)i;
         int north = i % 2, high = y > 2.0f;
         Vec3 n = vec3(sinf(angle), 0, north ? -cosf(angle) : cosf(angle));
-        SurfacePoint point = {.object_position = vec3_madd(vec3(0, y, 0), RADIUS, n),
-                              .geometric_normal = n,
-                              .normal = n,
-                              .tangent_u = vec3(n.z, 0, -n.x),
-                              .tangent_v = vec3(0, 1, 0),
-                              .uv = {angle * RADIUS, y},
-                              .radius = RADIUS,
-                              .footprint = 1e-4f};
+        SurfacePoint point = stem_point(n, angle * RADIUS, y);
         PatternShade shade = {.color = m.color, .normal = n};
         pattern_apply(&m, &point, &shade);
         green[north][high] += (double)(shade.color.y - shade.color.x);
@@ -230,14 +236,7 @@ static void few_scars_of_smooth_bark_are_open(void **state)
     for (int i = 0; i < 48 * 4000; i++) {
         float angle = 2.0f * PI_F * (float)(i % 48) / 48.0f, y = 0.01f * (float)(i / 48);
         Vec3 n = vec3(sinf(angle), 0, cosf(angle));
-        SurfacePoint point = {.object_position = vec3_madd(vec3(0, y, 0), RADIUS, n),
-                              .geometric_normal = n,
-                              .normal = n,
-                              .tangent_u = vec3(n.z, 0, -n.x),
-                              .tangent_v = vec3(0, 1, 0),
-                              .uv = {angle * RADIUS, y},
-                              .radius = RADIUS,
-                              .footprint = 1e-4f};
+        SurfacePoint point = stem_point(n, angle * RADIUS, y);
         float height = pattern_height(&m, &point);
         below += height < -0.0005f;
         deep += height < -0.006f;
