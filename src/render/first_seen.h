@@ -1,5 +1,6 @@
-// What a camera ray meets first. The film keeps the samples of lights and of the sky apart from
-// those of surfaces, so that a picture can be filtered after the highlights are compressed.
+// What a camera ray meets first; a mirror that shows a lamp counts as the lamp. The film keeps the
+// samples of lights and of the sky apart from those of surfaces, so that a picture can be filtered
+// after the highlights are compressed.
 #ifndef RAMIFY_RENDER_FIRST_SEEN_H
 #define RAMIFY_RENDER_FIRST_SEEN_H
 

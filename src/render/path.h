@@ -64,6 +64,7 @@ typedef struct Path {
     bool lamps_known;   // the light of lamps, up to the next surface, has been added
     float near;         // chance of a lamp among the lights sampled where the ray's direction was
     bool mirrored;      // only mirror reflections since the camera
+    bool guided;        // no chance has decided what a denoiser's guides show
     bool gathers;       // left a point, not of open water, where light was gathered through it
     bool straight;      // only films and index-matched interfaces since the camera
     float clear;        // expected share of the light from behind that passes what scatters before

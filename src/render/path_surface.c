@@ -5,18 +5,6 @@
 
 enum { MOST_CROSSINGS = 256 }; // of index-matched interfaces by one path
 
-// A ray from the point in this direction, offset to the side of the surface that it leaves on.
-static Ray ray_from(Path *path, const SurfacePoint *point, Vec3 direction)
-{
-    bool outside = vec3_dot(direction, point->geometric_normal) > 0.0f;
-    Vec3 start = outside ? point->lifted : point->position;
-    float step = outside ? point->epsilon : -point->epsilon;
-    return (Ray){.origin = vec3_madd(start, step, point->facet_normal),
-                 .direction = direction,
-                 .far = INFINITY,
-                 .key = path->key++};
-}
-
 // Straight on through an index-matched interface. False after too many of them.
 static bool cross_index_matched(Path *path, const SurfacePoint *point)
 {
@@ -24,7 +12,7 @@ static bool cross_index_matched(Path *path, const SurfacePoint *point)
     media_cross(&path->media, path->tracer, point->material, point->backface);
     path->throughput =
         vec3_mul(path->throughput, path->tracer->world->material[point->material].color);
-    path->ray = ray_from(path, point, path->ray.direction);
+    path->ray = ray_leaving(point, path->ray.direction, path->key++);
     path->footprint = point->footprint;
     return ++path->crossings < MOST_CROSSINGS;
 }
@@ -42,8 +30,8 @@ static bool leave_open_water(Path *path, const SurfacePoint *point)
         return cross_index_matched(path, point);
     }
     path->roulette = (path->roulette - passage) / (1.0f - passage);
-    path->ray =
-        ray_from(path, point, vec3_madd(direction, -2.0f * cosine, point->geometric_normal));
+    path->ray = ray_leaving(point, vec3_madd(direction, -2.0f * cosine, point->geometric_normal),
+                            path->key++);
     path->footprint = point->footprint;
     path->bsdf_pdf = 0.0f;
     return ++path->crossings < MOST_CROSSINGS;
@@ -62,7 +50,9 @@ static void note_guides(const Path *path, const Bsdf *bsdf)
     float transmittance = path->clear * fminf(luminance(path->throughput), 1.0f);
     float seen = bsdf_is_emissive(bsdf) ? 0.0f : transmittance;
     result->albedo = vec3_add(vec3_scale(bsdf->albedo, seen), vec3_splat(1.0f - seen));
-    result->normal = vec3_madd(path->veil_normal, path->clear, bsdf->normal);
+    // in a mirror, too, a lamp shows as one
+    bool mirrors = result->seen == SEEN_LIGHT && !bsdf_is_emissive(bsdf);
+    result->normal = vec3_madd(path->veil_normal, mirrors ? 0.0f : path->clear, bsdf->normal);
 }
 
 // The AOVs of the first surface.
@@ -95,8 +85,10 @@ static bool shade(Vertex *vertex)
     vertex->wo = vec3_neg(path->ray.direction);
     bsdf_fill(tracer->materials, point, vertex->wo, bsdf);
     if (path->straight) {
+        const float favour = 0.9f; // the other way leads to what is far darker
+        bsdf->favour = path->result->seen == SEEN_LIGHT ? favour : 0.0f;
         note_first_hit(path, point, bsdf);
-    } else if (path->mirrored) {
+    } else if (path->mirrored && path->guided) {
         note_mirrored(path, bsdf);
     }
     bool known = path->lamps_known;
@@ -212,7 +204,7 @@ void path_sample_light(Vertex *vertex, const float u[4])
     if (!(f.x + f.y + f.z > 0.0f)) {
         return;
     }
-    Ray shadow = ray_from(path, point, light.direction);
+    Ray shadow = ray_leaving(point, light.direction, path->key++);
     path_aim(&shadow, &light);
     Vec3 radiance =
         vec3_scale(vec3_mul(f, light.radiance), power_heuristic(light.pdf, pdf) / light.pdf);
@@ -239,7 +231,7 @@ bool path_bounce(Vertex *vertex, const float u[4])
         return false;
     }
     path->throughput = vec3_mul(path->throughput, sample.weight);
-    path->ray = ray_from(path, point, sample.wi);
+    path->ray = ray_leaving(point, sample.wi, path->key++);
     path->depth++;
     path->footprint = point->footprint;
     path->roulette = u[3];
@@ -247,6 +239,7 @@ bool path_bounce(Vertex *vertex, const float u[4])
         return true; // goes straight on, as shadow rays do
     }
     path->straight = false;
+    path->guided = path->guided && !(bsdf->traits & TRAIT_OPEN); // mirrored or not: that is noise
     path->start = path->ray.origin;
     path->travelled = 0.0f;
     path->bsdf_pdf = sample.delta || enters_open_water(vertex, sample.wi) ? 0.0f : sample.pdf;

@@ -2,6 +2,7 @@
 // while the film's radiance stays the mean of all samples.
 #include "image/highlights.h"
 #include "image/tone_curve.h"
+#include "render/medium/water.h"
 #include "tiny_world.h"
 
 enum { WIDTH = 24, HEIGHT = 16, SUBPIXELS = 64 };
@@ -48,6 +49,24 @@ static World *lamp_world(void)
                              .corner = CORNER,
                              .edge_u = ACROSS,
                              .edge_v = UP});
+    return world;
+}
+
+// Calm water in place of the half plane, which it mirrors: three times as large and as far away,
+// and so bright that the mirrored one has the radiance BRIGHT.
+static World *mirror_world(void)
+{
+    const float sine = (WATER_INDEX - 1.0f) / (WATER_INDEX + 1.0f); // Fresnel, straight on
+    World *world = sky_world();
+    world->material[0] = material_default(MATERIAL_WATER);
+    world->material[0].ior = WATER_INDEX;
+    world->material[1] = material_default(MATERIAL_EMISSION);
+    world->material[1].radiance = vec3_splat(BRIGHT / (sine * sine));
+    world->material_count = 2;
+    Vec3 corner = vec3_scale(CORNER, 3.0f);
+    corner.z = 10.0f;
+    add_mesh(world, quad_mesh(corner, vec3_scale(ACROSS, 3.0f), vec3_scale(UP, 3.0f)), 1, 0);
+    add_mesh(world, quad_mesh(vec3(-40, -40, 0), vec3(80, 0, 0), vec3(0, 80, 0)), 0, 1);
     return world;
 }
 
@@ -137,6 +156,18 @@ static void test_edges_are_means_of_what_is_shown(void **state)
         film_free(film);
         world_free(world);
     }
+}
+
+// A lamp in calm water is as thin as the lamp itself, although few samples are those of the mirror.
+static void test_mirrored_edges_are_such_means_too(void **state)
+{
+    (void)state;
+    World *world = mirror_world();
+    Film *film = trace(world, 2, NULL);
+    assert_true(worst_edge(film, true) < 0.02f);
+    assert_true(worst_edge(film, false) > 0.6f);
+    film_free(film);
+    world_free(world);
 }
 
 // What one kind of thing fills keeps its bits; of the light that a mixed pixel lost, all is left
@@ -232,6 +263,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_edges_are_means_of_what_is_shown),
+        cmocka_unit_test(test_mirrored_edges_are_such_means_too),
         cmocka_unit_test(test_only_mixed_pixels_change),
         cmocka_unit_test(test_black_edges_stay_black),
         cmocka_unit_test(test_blurred_lights_stay_linear),

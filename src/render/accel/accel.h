@@ -24,6 +24,18 @@ typedef struct Ray {
     uint32_t key;           // random: decides whether the ray passes half-transparent surfaces
 } Ray;
 
+// A ray from the point in this direction, offset to the side of the surface that it leaves on.
+static inline Ray ray_leaving(const SurfacePoint *point, Vec3 direction, uint32_t key)
+{
+    bool outside = vec3_dot(direction, point->geometric_normal) > 0.0f;
+    Vec3 start = outside ? point->lifted : point->position;
+    float step = outside ? point->epsilon : -point->epsilon;
+    return (Ray){.origin = vec3_madd(start, step, point->facet_normal),
+                 .direction = direction,
+                 .far = INFINITY,
+                 .key = key};
+}
+
 typedef struct Hit {
     float t, u, v;
     Vec3 normal; // Embree's, in the part's own space, not unit

@@ -46,6 +46,7 @@ typedef struct Bsdf {
     float alpha;        // GGX; 0 = mirror
     float eta;          // index on the far side over that on wo's side
     bool inside;        // wo is inside a dielectric body
+    float favour;       // least chance of the reflection at a smooth dielectric; 0 at first
     float foam;         // on water: share of the pixel, of this reflectance
     Vec3 foam_color;
 

@@ -47,7 +47,7 @@ static void defaults(Material *m)
     m->roughness = 0.3f;
 }
 
-const MaterialOps conductor_ops = {.traits = TRAIT_OPAQUE | TRAIT_PATTERNED,
+const MaterialOps conductor_ops = {.traits = TRAIT_OPAQUE | TRAIT_PATTERNED | TRAIT_MIRROR,
                                    .defaults = defaults,
                                    .describe = describe,
                                    .tabulate = tabulate,

@@ -84,16 +84,18 @@ Vec3 dielectric_eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
     return vec3_scale(reflected ? vec3_splat(1.0f) : b->color, f);
 }
 
-static bool sample_delta(const Bsdf *b, Vec3 wo, const float u[3], BsdfSample *sample)
+bool dielectric_sample_delta(const Bsdf *b, Vec3 wo, const float u[3], BsdfSample *sample)
 {
     float cosine = vec3_dot(b->normal, wo);
-    sample->transmitted = u[2] >= fresnel_dielectric(cosine, b->eta, NULL);
+    float fresnel = fresnel_dielectric(cosine, b->eta, NULL);
+    float chance = fmaxf(fresnel, b->favour);
+    sample->transmitted = u[2] >= chance;
     if (!sample->transmitted) {
         sample->wi = vec3_sub(vec3_scale(b->normal, 2.0f * cosine), wo);
-        sample->weight = vec3_splat(1.0f);
+        sample->weight = vec3_splat(fresnel / chance);
         return true;
     }
-    sample->weight = b->color;
+    sample->weight = vec3_scale(b->color, (1.0f - fresnel) / (1.0f - chance));
     return refract(wo, b->normal, b->eta, &sample->wi);
 }
 
@@ -120,11 +122,11 @@ static void defaults(Material *m)
     m->roughness = 0.0f;
 }
 
-const MaterialOps dielectric_ops = {.traits = TRAIT_BODY,
+const MaterialOps dielectric_ops = {.traits = TRAIT_BODY | TRAIT_MIRROR,
                                     .defaults = defaults,
                                     .describe = describe,
                                     .tabulate = tabulate,
                                     .prepare = dielectric_prepare,
                                     .eval = dielectric_eval,
                                     .draw = dielectric_draw,
-                                    .sample_delta = sample_delta};
+                                    .sample_delta = dielectric_sample_delta};

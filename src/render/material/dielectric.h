@@ -9,5 +9,6 @@ void dielectric_prepare(Bsdf *bsdf, const MaterialEntry *entry, const SurfacePoi
                         float cos_o);
 Vec3 dielectric_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf);
 bool dielectric_draw(const Bsdf *bsdf, Vec3 wo, const float u[3], Vec3 *wi);
+bool dielectric_sample_delta(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample);
 
 #endif

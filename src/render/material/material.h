@@ -33,6 +33,7 @@ enum {
     TRAIT_THIN = 8,     // a film: what is transmitted goes straight on, shadow rays too
     TRAIT_OPEN = 32,    // a body that light enters and leaves straight on where it is gathered: see
                         // path_surface.c
+    TRAIT_MIRROR = 64,  // may be smooth, and is a mirror there
     TRAIT_PATTERNED = 16 // pattern, variation and texture change its colour; else at most bumps
 };
 

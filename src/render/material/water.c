@@ -1,5 +1,6 @@
 // Open water: a dielectric surface with the waves of a sea (base/waves.h) and their foam. What of
-// the waves is finer than a pixel is roughness.
+// the waves is finer than a pixel is roughness. Without any it is a mirror: even a narrow lobe
+// would spread what is ten thousand times as bright as the rest, a bolt, over many pixels.
 //
 // Light finds its way into the body straight through the surface, without refraction
 // (TRAIT_OPEN): so the sun lights the bed and the water without noise. See path_surface.c.
@@ -64,6 +65,8 @@ static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point
 static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, float cos_o)
 {
     maps_set_roughness(entry, b->roughness, b);
+    bool mirror = b->roughness * b->roughness < LEAST_ALPHA && b->foam <= 0.0f;
+    b->alpha = mirror ? 0.0f : b->alpha;
     dielectric_prepare(b, entry, point, cos_o);
 }
 
@@ -114,11 +117,12 @@ static void defaults(Material *m)
     m->ior = 1.34f;
 }
 
-const MaterialOps water_ops = {.traits = TRAIT_BODY | TRAIT_OPEN,
+const MaterialOps water_ops = {.traits = TRAIT_BODY | TRAIT_OPEN | TRAIT_MIRROR,
                                .defaults = defaults,
                                .describe = describe,
                                .tabulate = tabulate,
                                .shade = shade,
                                .prepare = prepare,
                                .eval = eval,
-                               .draw = draw};
+                               .draw = draw,
+                               .sample_delta = dielectric_sample_delta};
