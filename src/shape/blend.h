@@ -21,9 +21,6 @@ typedef struct Blend {
     int count;
 } Blend;
 
-// How far the surface lies at most from the nearest of the parts' surfaces, m.
-double blend_reach(const Blend *blend);
-
 // Signed distance (m): first-order accurate near the surface, except for the edges that are
 // rounded. *bound is as in primitive_distance. blend: a Blend.
 double blend_all_distance(const void *blend, Vec3 p, double *bound);
