@@ -1,6 +1,7 @@
 #include "shape/body.h"
 
 #include "shape/affine.h"
+#include "shape/blend.h"
 
 #include <math.h>
 
@@ -93,14 +94,6 @@ static double part_distance(const BodyPart *part, const double p[3])
                    (p[2] - middle) * squeeze - (part->a[2] - middle)};
     double axis[3] = {part->b[0] - part->a[0], part->b[1] - part->a[1], part->b[2] - part->a[2]};
     return part->depth * round_cone_distance(q, axis, part->radius_a, part->radius_b);
-}
-
-// Polynomial smooth minimum of two distances.
-static double blend_distance(double a, double b, double width)
-{
-    double h = width > 0.0 ? (width - fabs(a - b)) / width : 0.0;
-    double lower = a < b ? a : b;
-    return h > 0.0 ? lower - 0.25 * h * h * width : lower;
 }
 
 bool body_new(const Shape *shape, Body *body, Error *e)

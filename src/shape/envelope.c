@@ -1,7 +1,7 @@
 #include "shape/envelope.h"
 
 #include "base/memory.h"
-#include "shape/body.h"
+#include "shape/blend.h"
 #include "shape/import.h"
 #include "shape/level_set.h"
 #include "shape/mesh_close.h"
@@ -65,6 +65,7 @@ static bool check_list(const EnvelopeParams *params, Error *e)
                          "voxel is %g m; it must be positive, or 0 for 1/%d of the largest extent",
                          (double)params->voxel, VOXELS_DEFAULT);
     }
+    int meshes = 0;
     for (int i = 0; i < params->shape_count; i++) {
         const Shape *shape = &params->shapes[i];
         if (shape->kind == SHAPE_HALF_SPACE && (i == 0 || shape->op == SHAPE_UNION)) {
@@ -77,6 +78,12 @@ static bool check_list(const EnvelopeParams *params, Error *e)
             return error_set(e, ERROR_INPUT,
                              "shape 1: there is no shape to cut yet; the first shape of the list "
                              "must be a union");
+        }
+        meshes += shape->kind == SHAPE_MESH;
+        if (shape->blend > 0.0f && (i == 0 || meshes > 0)) {
+            return error_set(e, ERROR_INPUT,
+                             "shape %d has a blend, but %s; a blend of 0 leaves its edge sharp",
+                             i + 1, i == 0 ? "no shape comes before it" : "a mesh has sharp edges");
         }
     }
     return true;
@@ -173,17 +180,37 @@ static Piece *pieces_load(const EnvelopeParams *params, const Run *run, Error *e
 
 // ---- level sets ----
 
+// How many of the first pieces are made as one: up to the last that flows into those before it.
+static int blended_count(const Piece *pieces, int count)
+{
+    while (count > 0 && !(pieces[count - 1].shape->blend > 0.0f)) {
+        count--;
+    }
+    return count;
+}
+
+// A box that contains the envelope: rounded edges may lie a quarter of their blend outside of the
+// shapes.
+static Aabb box_inside(const Piece *pieces, int count)
+{
+    Aabb inside = aabb_empty();
+    float reach = 0.0f;
+    for (int i = 0; i < count; i++) {
+        if (pieces[i].shape->op == SHAPE_UNION) {
+            inside = box_union(inside, pieces[i].bounds);
+            reach += 0.25f * pieces[i].shape->blend;
+        }
+    }
+    return (Aabb){vec3_sub(inside.low, vec3_splat(reach)),
+                  vec3_add(inside.high, vec3_splat(reach))};
+}
+
 // Chooses the voxel size and checks it before anything is allocated. *inside is set to a box that
 // contains the envelope.
 static bool choose_frame(const Piece *pieces, int count, float voxel, LevelSetFrame *frame,
                          Aabb *inside, Error *e)
 {
-    *inside = aabb_empty();
-    for (int i = 0; i < count; i++) {
-        if (pieces[i].shape->op == SHAPE_UNION) {
-            *inside = box_union(*inside, pieces[i].bounds);
-        }
-    }
+    *inside = box_inside(pieces, count);
     float extent = largest_extent(*inside);
     *frame = (LevelSetFrame){inside->low, voxel > 0.0f ? voxel : extent / VOXELS_DEFAULT};
     if (!(extent / frame->voxel >= VOXELS_MIN)) {
@@ -233,12 +260,33 @@ static LevelSet *piece_level_set(const Piece *piece, LevelSetFrame frame, Aabb i
                                    box_common(piece->bounds, inside), frame, run, e);
 }
 
+// The first `count` pieces, which flow into each other, as one.
+static LevelSet *blended_level_set(const Piece *pieces, int count, LevelSetFrame frame, Aabb inside,
+                                   const Run *run, Error *e)
+{
+    BlendPart *part = memory_alloc(count, sizeof *part, e);
+    LevelSet *set = NULL;
+    if (part) {
+        for (int i = 0; i < count; i++) {
+            bool body = pieces[i].shape->kind == SHAPE_BODY;
+            part[i] = (BlendPart){pieces[i].shape, body ? NULL : &pieces[i].primitive,
+                                  body ? &pieces[i].body : NULL};
+        }
+        Blend blend = {part, count};
+        set = level_set_from_distance(blend_all_distance, &blend, inside, frame, run, e);
+    }
+    free(part);
+    return set;
+}
+
 static LevelSet *combine_pieces(const Piece *pieces, int count, LevelSetFrame frame, Aabb inside,
                                 const Run *run, Error *e)
 {
-    LevelSet *all = piece_level_set(&pieces[0], frame, inside, run, e);
+    int blended = blended_count(pieces, count);
+    LevelSet *all = blended > 0 ? blended_level_set(pieces, blended, frame, inside, run, e)
+                                : piece_level_set(&pieces[0], frame, inside, run, e);
     bool done = all;
-    for (int i = 1; done && i < count; i++) {
+    for (int i = blended > 0 ? blended : 1; done && i < count; i++) {
         LevelSet *next = piece_level_set(&pieces[i], frame, inside, run, e);
         done = next && level_set_combine(all, next, pieces[i].shape->op, e);
         level_set_free(next);

@@ -33,6 +33,7 @@ typedef enum ShapeOp {
 typedef struct Shape {
     ShapeKind kind;
     ShapeOp op;
+    float blend; // m: how far its edge with the shapes before it is rounded; 0 = sharp
     Vec3 size;
     Transform transform;
     Vec3 position, rotation, scale; // what a scene makes the transform of (degrees); else unused

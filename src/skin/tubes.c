@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "skin/cage.h"
 #include "skin/grid.h"
+#include "skin/lumen.h"
 #include "skin/mouth.h"
 #include "skin/ring.h"
 
@@ -247,6 +248,13 @@ static bool add_cap(TubeBuilder *builder, const SkinRing *ring, bool at_end, Err
                          vec3_madd(ring->centre, inwards, ring->normal), e);
 }
 
+static bool close_root(TubeBuilder *builder, const SkinRing *ring, float offset, Error *e)
+{
+    float wall = builder->plan->params.wall;
+    return wall > 0.0f ? skin_lumen_close(builder->cage, ring, wall, offset, e)
+                       : add_cap(builder, ring, false, e);
+}
+
 static bool open_mouths(TubeBuilder *builder, int32_t chain, const SkinRing *ring, float phase,
                         Error *e)
 {
@@ -374,7 +382,7 @@ static bool build_chain(TubeBuilder *builder, const TubeJob *job, Error *e)
             return false;
         }
     }
-    return (extra || add_cap(builder, &ring[0], false, e)) &&
+    return (extra || close_root(builder, &ring[0], offset, e)) &&
            add_cap(builder, &ring[count - 1], true, e) &&
            open_mouths(builder, job->chain, ring + extra, phase, e);
 }

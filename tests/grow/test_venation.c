@@ -3,7 +3,7 @@
 #include "testing.h"
 
 #include "base/random.h"
-#include "grow/venation/venation.h"
+#include "grow/venation/veinlets.h"
 #include "outtree/join.h"
 
 #include <math.h>
@@ -207,6 +207,78 @@ static void bad_numbers_are_named(void **state)
     assert_non_null(strstr(e.message, "kill must be below birth"));
 }
 
+// Length of the free ends: from each tip that lies on no other node back to the fork it left.
+static int count_free_ends(const OutTree *tree, float *shortest)
+{
+    int count = 0;
+    *shortest = INFINITY;
+    int *children = calloc((size_t)tree->count, sizeof *children);
+    assert_non_null(children);
+    for (int64_t i = 1; i < tree->count; i++) {
+        children[tree->parent[i]]++;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        bool joined = false;
+        for (int64_t k = 0; k < tree->count && children[i] == 0; k++) {
+            joined =
+                joined || (k != i && vec3_distance(tree->position[i], tree->position[k]) == 0.0f);
+        }
+        if (children[i] > 0 || joined) {
+            continue;
+        }
+        float way = 0.0f;
+        for (int64_t k = i; tree->parent[k] >= 0 && (k == i || children[k] == 1);
+             k = tree->parent[k]) {
+            way += vec3_distance(tree->position[k], tree->position[tree->parent[k]]);
+        }
+        *shortest = fminf(*shortest, way);
+        count++;
+    }
+    free(children);
+    return count;
+}
+
+// Trimming leaves no short free ends and closes or opens no loop; veinlets end freely in the
+// areoles, away from the net, and open no loop either.
+static void veinlets_end_in_areoles(void **state)
+{
+    (void)state;
+    VeinParams params = vein_params_default();
+    params.closed = true;
+    params.birth = 0.004f, params.kill = 0.002f, params.step = 0.001f;
+    Run run = run_default();
+    OutTree *tree = veins_grow(&params, NULL, NULL, &run, NULL);
+    assert_non_null(tree);
+    int64_t pieces, loops, before;
+    float shortest;
+    assert_true(out_tree_count_pieces(tree, &pieces, &before, NULL));
+    assert_true(veins_trim(tree, 1.2f * params.birth, NULL));
+    int kept = count_free_ends(tree, &shortest);
+    assert_true(kept == 0 || shortest >= 1.2f * params.birth);
+    assert_true(out_tree_count_pieces(tree, &pieces, &loops, NULL));
+    assert_int_equal(pieces, 1);
+    assert_int_equal(loops, before);
+
+    int64_t net = tree->count;
+    assert_true(veins_add_veinlets(tree, &params, 1.0f, &run, NULL));
+    assert_true(out_tree_check(tree, NULL));
+    assert_true(out_tree_count_pieces(tree, &pieces, &loops, NULL));
+    assert_int_equal(pieces, 1);
+    assert_int_equal(loops, before);
+    assert_true(count_free_ends(tree, &shortest) > kept + (int)loops / 4);
+    for (int64_t i = net; i < tree->count; i++) {
+        bool first = tree->parent[i] < net; // near the vein that it leaves
+        for (int64_t k = 0; k < net && !first; k++) {
+            assert_true(vec3_distance(tree->position[i], tree->position[k]) > 0.36f * params.birth);
+        }
+    }
+    OutTree *none = out_tree_copy(tree, NULL);
+    assert_true(veins_add_veinlets(none, &params, 0.0f, &run, NULL));
+    assert_int_equal(none->count, tree->count);
+    out_tree_free(none);
+    out_tree_free(tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -215,6 +287,7 @@ int main(void)
         cmocka_unit_test(closed_veins_have_loops),
         cmocka_unit_test(secondary_veins_arch_to_one_another),
         cmocka_unit_test(a_larger_leaf_has_the_same_veins),
+        cmocka_unit_test(veinlets_end_in_areoles),
         cmocka_unit_test(bad_numbers_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

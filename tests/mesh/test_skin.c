@@ -131,6 +131,40 @@ static void collars_thicken_where_branches_leave(void **state)
     assert_float_equal(far[1], far[0], 0.002f);
 }
 
+// A tube that is cut open has a lip at its end, the inside of a wall of the wanted thickness, and a
+// floor three radii in; its surface stays closed.
+static void cut_roots_are_hollow(void **state)
+{
+    (void)state;
+    const float r = 0.1f, wall = 0.3f;
+    OutTree *tree = out_tree_new(NULL);
+    sample_line(tree, -1, vec3(0, 0, 0), vec3(0, 0.1f, 0), 20, r);
+    float inner = INFINITY, lip = INFINITY, floor = INFINITY;
+    SkinParams params = skin_params_default();
+    params.wall = wall;
+    params.levels = 3;
+    Run run = run_default();
+    Mesh *mesh = skin_tree(tree, &params, &run, NULL);
+    assert_non_null(mesh);
+    assert_closed(mesh, 1);
+    assert_int_equal(count_inverted(tree, &params), 0);
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        Vec3 p = mesh->position[i];
+        lip = fminf(lip, p.y);
+        if (p.y > 0.0f && p.y < 0.1f) {
+            inner = fminf(inner, hypotf(p.x, p.z));
+        }
+        if (hypotf(p.x, p.z) < 0.2f * r) {
+            floor = fminf(floor, p.y);
+        }
+    }
+    mesh_free(mesh);
+    assert_float_equal(floor - lip, 3.0f * r, 0.15f * r);
+    assert_float_equal(inner, r * (1.0f - wall), 0.002f);
+    assert_true(lip > -r); // where the round end would reach
+    out_tree_free(tree);
+}
+
 static void finished_skins_are_closed_and_look_outwards(void **state)
 {
     (void)state;
@@ -342,6 +376,7 @@ int main(void)
         cmocka_unit_test(random_trees_have_closed_skins_that_look_outwards),
         cmocka_unit_test(nasty_trees_have_closed_skins_that_look_outwards),
         cmocka_unit_test(collars_thicken_where_branches_leave),
+        cmocka_unit_test(cut_roots_are_hollow),
         cmocka_unit_test(finished_skins_are_closed_and_look_outwards),
         cmocka_unit_test(straight_tubes_have_the_asked_radius),
         cmocka_unit_test(tapering_tubes_stay_round),

@@ -61,7 +61,8 @@ static CurveSet *curves_of(const OutTree *tree, const VenationParams *params)
 {
     Transform place = transform_compose(vec3(0, 0, 0), vec3(0, 0, 0), vec3_splat(1.0f));
     Error e = {0};
-    CurveSet *curves = venation_curves(tree, params, &place, &e);
+    Relief flat = {.params = params};
+    CurveSet *curves = venation_curves(tree, params, &flat, &place, &e);
     assert_non_null(curves);
     return curves;
 }
@@ -173,6 +174,41 @@ static void the_net_is_measured_against_the_blade(void **state)
     out_tree_free(open);
 }
 
+// The midrib lies at the bottom of its furrow, all the relief deep, and so does the blade above it;
+// half an areole beside the net's finest veins the blade is hardly lower than without relief.
+static void the_blade_bulges_between_veins(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.relief = 0.0008f;
+    params.curl = params.fold = 0.0f;
+    OutTree *tree = grow(&params);
+    VenationParams full = venation_params_resolve(&params);
+    Relief relief;
+    Error e = {0};
+    assert_true(relief_init(&relief, &full, tree, &e));
+    Transform place = transform_identity();
+    Mesh *blade = venation_blade(&full, &relief, &place, &e);
+    assert_non_null(blade);
+    float low = INFINITY, high = -INFINITY;
+    for (int64_t i = 0; i < blade->vertex_count; i++) {
+        Vec3 p = blade->position[i];
+        assert_true(p.z <= 0.0f && p.z >= -params.relief);
+        if (p.y > 0.004f && p.y < 0.01f && fabsf(p.x) < 0.0002f) {
+            low = fminf(low, p.z);
+        }
+        high = fmaxf(high, p.z);
+    }
+    assert_true(low < -0.9f * params.relief);
+    assert_true(high > -0.02f * params.relief);
+    float root = relief_at(&relief, vec3(0, 0.005f, 0));
+    assert_true(root < -0.9f * params.relief);
+    assert_true(relief_at(&relief, vec3(0, -0.01f, 0)) == 0.0f); // the stalk
+    mesh_free(blade);
+    relief_clear(&relief);
+    out_tree_free(tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -180,6 +216,7 @@ int main(void)
         cmocka_unit_test(a_leaf_has_a_blade_and_a_curve_for_each_piece_of_vein),
         cmocka_unit_test(the_texture_shows_the_midrib_in_the_middle),
         cmocka_unit_test(the_net_is_measured_against_the_blade),
+        cmocka_unit_test(the_blade_bulges_between_veins),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

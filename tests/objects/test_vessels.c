@@ -1,5 +1,6 @@
 // Blood vessels: both trees in the organ, apart from each other, by Murray's laws.
 #include "making.h"
+#include "objects/vessels/stem.h"
 #include "objects/vessels/vessels.h"
 #include "outtree/segment_grid.h"
 #include "testing.h"
@@ -421,6 +422,82 @@ static void flow_is_measured(void **state)
     out_tree_free(tree);
 }
 
+// Cosine between the vessel that arrives at the node nearest to `place` and the one that leaves it
+// toward `to`.
+static float leaving_cosine(const OutTree *tree, Vec3 place, Vec3 to)
+{
+    float best = -1.0f;
+    int64_t origin = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (vec3_distance(tree->position[i], place) <
+            vec3_distance(tree->position[origin], place)) {
+            origin = i;
+        }
+    }
+    Vec3 along = vec3_sub(tree->position[origin], tree->position[tree->parent[origin]]);
+    float straightest = -1.0f;
+    for (int64_t i = 0; i < tree->count; i++) {
+        Vec3 way = vec3_sub(tree->position[i], tree->position[origin]);
+        float aside = vec3_dot(vec3_normalize(way), vec3_normalize(vec3_sub(to, place)));
+        if (tree->parent[i] == origin && aside > straightest) {
+            straightest = aside;
+            best = vec3_dot(vec3_normalize(along), vec3_normalize(way));
+        }
+    }
+    return best;
+}
+
+// A vessel that leaves another at a right angle turns off over its sweep: it begins in the other's
+// direction and still ends where it is to.
+static void swept_vessels_leave_with_the_flow(void **state)
+{
+    (void)state;
+    Shape shape = organ_shape(0.1f);
+    for (int swept = 0; swept < 2; swept++) {
+        GreatVessel great[] = {{.from = vec3(-0.15f, 0, 0), .to = vec3(0.06f, 0, 0)},
+                               {.from = vec3(-0.03f, 0, 0), .to = vec3(-0.03f, 0.05f, 0)}};
+        great[1].sweep = swept ? 0.03f : 0.0f;
+        VesselsParams params = organ(&shape, 40);
+        params.veins = false;
+        params.turn = false;
+        params.great = great;
+        params.great_count = 2;
+        OutTree *tree = grow(&params, 1, 1.0f);
+        float cosine = leaving_cosine(tree, great[1].from, great[1].to);
+        if (swept) {
+            assert_true(cosine > 0.95f);
+        } else {
+            assert_true(fabsf(cosine) < 0.3f);
+        }
+        assert_true(distance_to(tree, VESSELS_ARTERIES, great[1].to) < 1e-6f);
+        out_tree_free(tree);
+    }
+}
+
+// The arch of a body's aorta gives off the brachiocephalic, from which right arm and carotid come,
+// then the left carotid, then the left arm's vessel: two of the three are on the left.
+static void a_bodys_arch_has_three_branches(void **state)
+{
+    (void)state;
+    Shape shape = {.kind = SHAPE_BODY, .size = vec3(1, 1, 1), .transform = transform_identity()};
+    OutTree *tree = out_tree_new(NULL);
+    assert_true(vessels_plant_great(tree, &shape, VESSELS_ARTERIES, 1, NULL));
+    int branches = 0, left = 0;
+    for (int64_t i = 1; i < tree->count; i++) {
+        Vec3 p = tree->position[tree->parent[i]];
+        bool arch = tree->parent[i] != i - 1 && fabsf(p.x - 0.008f) < 0.008f && p.y > 0.75f;
+        branches += arch;
+        int64_t end = i; // far enough along the branch to tell its side
+        while (arch && end + 1 < tree->count && end < i + 8 && tree->parent[end + 1] == end) {
+            end++;
+        }
+        left += arch && tree->position[end].x > p.x;
+    }
+    assert_int_equal(branches, 3);
+    assert_int_equal(left, 2);
+    out_tree_free(tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -435,6 +512,8 @@ int main(void)
         cmocka_unit_test(growth_starts_from_placed_vessels),
         cmocka_unit_test(great_vessels_that_touch_are_told),
         cmocka_unit_test(flow_is_measured),
+        cmocka_unit_test(swept_vessels_leave_with_the_flow),
+        cmocka_unit_test(a_bodys_arch_has_three_branches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -369,6 +369,55 @@ static void refuses_what_is_no_envelope(void **state)
     }
 }
 
+// In the corner between two planes at right angles a blend of k fills up to k / 4 from either, and
+// takes as much away where one is cut off the other; k away from it nothing changes.
+static void edges_flow_over_a_blend(void **state)
+{
+    (void)state;
+    const float k = 0.4f;
+    Shape floor = shape_of(SHAPE_BOX, SHAPE_UNION, vec3(2, 0.5f, 2), vec3(0, -0.5f, 0));
+    Shape wall = shape_of(SHAPE_BOX, SHAPE_UNION, vec3(0.5f, 1, 2), vec3(-0.5f, 0, 0));
+    Shape sharp[2] = {floor, wall}, round[2] = {floor, wall}, cut[2] = {floor, wall};
+    round[1].blend = cut[1].blend = k;
+    cut[1].op = SHAPE_DIFFERENCE; // leaves the edge at x = 0, y = 0
+    Envelope *plain = make_voxels(sharp, 2, 0.01f), *filled = make_voxels(round, 2, 0.01f);
+    Envelope *worn = make_voxels(cut, 2, 0.01f);
+    const Vec3 corner = vec3(0.25f * k, 0.25f * k, 0), edge = vec3(0.25f * k, -0.25f * k, 0);
+    assert_true(fabsf(envelope_distance(filled, corner)) < 1e-4f);
+    assert_true(fabsf(envelope_distance(worn, edge)) < 1e-4f);
+    assert_true(envelope_distance(plain, corner) >= 0.029f);
+    for (float way = k; way < 0.9f; way += 0.1f) {
+        assert_true(fabsf(envelope_distance(filled, vec3(0, way, 0.3f))) < 1e-5f);
+        assert_true(fabsf(envelope_distance(filled, vec3(way, 0, 0.3f))) < 1e-5f);
+        assert_true(fabsf(envelope_distance(worn, vec3(way, 0, 0.3f))) < 1e-5f);
+    }
+    envelope_free(plain);
+    envelope_free(filled);
+    envelope_free(worn);
+
+    // what lies upon each other swells, and still fits into the level set
+    Shape same[2] = {shape_of(SHAPE_SPHERE, SHAPE_UNION, vec3(1, 1, 1), vec3(0, 0, 0))};
+    same[1] = same[0];
+    same[1].blend = k;
+    Envelope *swollen = make_voxels(same, 2, 0.02f);
+    double radius = 1.0 + 0.25 * (double)k;
+    assert_true(near_to(envelope_volume(swollen), 4.0 / 3.0 * PI_D * pow(radius, 3.0), 2e-3));
+    envelope_free(swollen);
+}
+
+static void refuses_blends_that_it_cannot_make(void **state)
+{
+    (void)state;
+    Shape shapes[2] = {shape_of(SHAPE_SPHERE, SHAPE_UNION, vec3(1, 1, 1), vec3(0, 0, 0)),
+                       shape_of(SHAPE_SPHERE, SHAPE_UNION, vec3(1, 1, 1), vec3(1, 0, 0))};
+    EnvelopeParams params = {.shapes = shapes, .shape_count = 2};
+    Run run = run_default();
+    Error e = {0};
+    shapes[0].blend = 0.1f;
+    assert_null(envelope_new(&params, &run, &e));
+    assert_non_null(strstr(e.message, "no shape comes before it"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -379,6 +428,8 @@ int main(void)
         cmocka_unit_test(level_sets_measure_well),
         cmocka_unit_test(mesh_level_set_lies_in_the_mesh),
         cmocka_unit_test(refuses_what_is_no_envelope),
+        cmocka_unit_test(edges_flow_over_a_blend),
+        cmocka_unit_test(refuses_blends_that_it_cannot_make),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

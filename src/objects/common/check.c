@@ -69,6 +69,7 @@ bool check_shape(const Mapping *mapping, void *params)
 bool check_shapes(const Mapping *mapping, const char *key, const Shape *shapes, int count)
 {
     const Node *list = node_get(mapping->given, key), *given = list ? list->first : NULL;
+    int meshes = 0;
     for (int i = 0; given && i < count; i++, given = given->next) {
         const char *name = mapping_path(mapping, key);
         if (shapes[i].kind == SHAPE_OBJECT) {
@@ -86,6 +87,13 @@ bool check_shapes(const Mapping *mapping, const char *key, const Shape *shapes, 
             return load_fail(
                 mapping->loader, given,
                 "%s: a half_space is unbounded; its op must be difference or intersection", name);
+        }
+        meshes += shapes[i].kind == SHAPE_MESH;
+        if (shapes[i].blend > 0.0f && (i == 0 || meshes > 0)) {
+            return load_fail(mapping->loader, node_get(given, "blend"),
+                             "%s: %s; blend: 0 leaves the edge sharp", name,
+                             i == 0 ? "there is no shape before the first to flow into"
+                                    : "a shape cannot flow into a mesh");
         }
     }
     return true;

@@ -31,6 +31,11 @@ static const Key SHAPE_KEYS[] = {
     {KEY_OF(Shape, op, "op", KEY_ENUM), .names = SHAPE_OPS, .kinds = ALL_BUT_OBJECT,
      .doc = "union: add the shape; difference: subtract it; intersection: keep only what also lies "
             "in it. The first shape of a list must be a union."},
+    {KEY_OF(Shape, blend, "blend", KEY_FLOAT), .kinds = ALL_BUT_OBJECT & ~BIT(SHAPE_MESH),
+     .high = 1e6, .unit = "m",
+     .doc = "How far the shape flows into those before it, as limbs into a body: edges between "
+            "them are rounded over about this length; 0 = they are sharp. None of the shapes "
+            "before it may be a mesh."},
     {KEY_OF(Shape, size, "size", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3, .high = 1e6,
      .kinds = BIT(SHAPE_SPHERE) | BIT(SHAPE_ELLIPSOID) | BIT(SHAPE_BOX) | BIT(SHAPE_CONE) |
               BIT(SHAPE_CAPSULE) | BIT(SHAPE_BODY),

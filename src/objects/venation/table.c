@@ -32,6 +32,14 @@ static const Key VENATION_KEYS[] = {
     {KEY_OF(VenationParams, smoothing, "smoothing", KEY_INT), .high = 1000,
      .doc = "Number of passes that smooth the bends of veins, which then taper without steps; 0 = "
             "straight pieces as they grew."},
+    {KEY_OF(VenationParams, veinlets, "veinlets", KEY_FLOAT), .high = 1,
+     .doc = "Share of the areoles in which a veinlet ends freely; above 0, other free ends, which "
+            "growth leaves by chance, are cleared away. Only of closed veins."},
+    {KEY_OF(VenationParams, relief, "relief", KEY_FLOAT), .low = -1000, .high = 1000, .unit = "m",
+     .doc =
+         "Depth of the furrow in which the midrib lies, seen from the front; lesser veins lie in "
+         "lesser ones, so that the blade bulges between them. Below 0 they stand out, as on a "
+         "leaf's underside."},
     {KEY_OF(VenationParams, petiole, "petiole", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Length of the stalk; 0 = none."},
     {KEY_OF(VenationParams, curl, "curl", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",

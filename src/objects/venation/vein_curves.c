@@ -120,7 +120,8 @@ static void smooth(Course *course, const OutTree *tree)
 // ---- curves ----
 
 static CurveSet *make_curves(const OutTree *tree, const Course *course,
-                             const VenationParams *params, const Transform *place, Error *e)
+                             const VenationParams *params, const Relief *relief,
+                             const Transform *place, Error *e)
 {
     int64_t pieces = 0;
     for (int64_t i = 0; i < tree->count; i++) {
@@ -132,8 +133,9 @@ static CurveSet *make_curves(const OutTree *tree, const Course *course,
         const int64_t end[2] = {tree->parent[i], i};
         for (int k = 0; end[0] >= 0 && k < 2; k++, point++) {
             bool tapers = params->smoothing > 0 && course->main[end[0]] == i;
-            Vec3 p = venation_bend(params, course->position[end[k]]);
-            curves->position[point] = transform_point(place, p);
+            Vec3 p = course->position[end[k]];
+            p.z += relief_at(relief, p);
+            curves->position[point] = transform_point(place, venation_bend(params, p));
             // a branch begins with its own radius, not with that of the vein it leaves
             curves->radius[point] = tree->radius[tapers ? end[k] : i];
             curves->birth[point] = last > 0 ? (float)tree->birth[end[k]] / (float)last : 0.0f;
@@ -144,8 +146,8 @@ static CurveSet *make_curves(const OutTree *tree, const Course *course,
     return curves;
 }
 
-CurveSet *venation_curves(const OutTree *tree, const VenationParams *params, const Transform *place,
-                          Error *e)
+CurveSet *venation_curves(const OutTree *tree, const VenationParams *params, const Relief *relief,
+                          const Transform *place, Error *e)
 {
     Course course = {0};
     CurveSet *curves = NULL;
@@ -153,7 +155,7 @@ CurveSet *venation_curves(const OutTree *tree, const VenationParams *params, con
         for (int pass = 0; pass < params->smoothing; pass++) {
             smooth(&course, tree);
         }
-        curves = make_curves(tree, &course, params, place, e);
+        curves = make_curves(tree, &course, params, relief, place, e);
     }
     course_free(&course);
     return curves;

@@ -3,16 +3,16 @@
 #define RAMIFY_OBJECTS_VENATION_VEIN_CURVES_H
 
 #include "mesh/curves.h"
-#include "objects/venation/venation.h"
+#include "objects/venation/blade.h"
 
 // Bends the flat leaf: folds the halves up about the midrib, bends the length back, leaves the
 // stalk straight.
 Vec3 venation_bend(const VenationParams *params, Vec3 p);
 
 // Every vein segment as a separate round curve; their round ends overlap. place: from the bent leaf
-// to the scene. Smoothing moves no tip, root or place where veins join, so loops stay closed. The
-// caller frees the curves.
-CurveSet *venation_curves(const OutTree *tree, const VenationParams *params, const Transform *place,
-                          Error *e);
+// to the scene. Veins lie in the relief. Smoothing moves no tip, root or place where veins join, so
+// loops stay closed. The caller frees the curves.
+CurveSet *venation_curves(const OutTree *tree, const VenationParams *params, const Relief *relief,
+                          const Transform *place, Error *e);
 
 #endif

@@ -19,6 +19,8 @@ typedef struct VenationParams {
     float midrib;        // m, radius at the base; 0 = 0.008 of the length
     float vein;          // m, radius of the finest; 0 = 0.06 of a mesh
     float petiole;       // m, length of the stalk; 0 = none
+    float veinlets;      // share of areoles with a free-ending veinlet; above 0, stubs are cleared
+    float relief;        // m: depth of the furrow of the midrib; lesser veins have lesser ones
     float curl;          // degrees that the blade bends back along its length
     float fold;          // degrees that each half folds up about the midrib
     bool blade;          // with the blade between the veins

@@ -30,6 +30,7 @@ static bool add_colony(const OutTree *tree, const VesselsParams *params, int col
     SkinParams skin = skin_params_default();
     skin.levels = params->skin_levels;
     skin.ring_spacing = params->ring_spacing;
+    skin.wall = params->wall;
     skin.min_radius = params->curve_radius > 0.0f ? params->curve_radius : INFINITY;
     if (params->curve_radius > 0.0f) {
         Part thick = {.mesh = skin_tree(tree, &skin, placing->recipe->run, e)};

@@ -35,12 +35,13 @@ static Vec3 between(Vec3 a, Vec3 b, Vec3 c, Vec3 d, float t)
     return vec3_madd(p, t3 - t2, m1);
 }
 
-// Adds the nodes of one course on one side; point[0] is where it starts.
-static bool follow(Planting *p, const Vec3 *point, int count, int64_t parent, int64_t *node,
-                   uint64_t id, Error *e)
+// Adds the nodes of one course on one side; point[0] is where it starts, `from` a point before
+// that.
+static bool follow(Planting *p, const Vec3 *point, int count, Vec3 from, int64_t parent,
+                   int64_t *node, uint64_t id, Error *e)
 {
     for (int i = 0; i + 1 < count; i++) {
-        Vec3 before = point[i > 0 ? i - 1 : 0], after = point[i + 2 < count ? i + 2 : count - 1];
+        Vec3 before = i > 0 ? point[i - 1] : from, after = point[i + 2 < count ? i + 2 : count - 1];
         int pieces = (int)(vec3_distance(point[i], point[i + 1]) / NODE_SPACING) + 1;
         for (int k = 1; k <= pieces; k++) {
             float t = (float)k / (float)pieces;
@@ -62,11 +63,22 @@ static Vec3 to_vec3(const float at[3], bool right)
     return vec3(right ? -at[0] : at[0], at[1], at[2]);
 }
 
+// A point before the first of a branch, so that it leaves between its mother's direction and its
+// own; the first point itself if it leaves against her direction. last: her point before it, or
+// herself, if she begins there.
+static Vec3 point_before(Vec3 last, Vec3 first, Vec3 next)
+{
+    Vec3 along = vec3_normalize(vec3_sub(first, last)), own = vec3_sub(next, first);
+    bool with_flow = vec3_dot(along, own) > 0.0f; // false for a mother that begins here
+    return with_flow ? vec3_madd(first, -vec3_length(own), along) : first;
+}
+
 static bool plant_course(Planting *p, const Course *courses, int number, bool right, uint64_t seed,
                          Error *e)
 {
     const Course *course = &courses[number];
     Vec3 point[MOST_COURSE_POINTS + 1];
+    Vec3 before = to_vec3(course->point[0], right);
     int count = 0;
     int64_t *node = p->node[number][right], parent;
     uint64_t id = random_key(random_key(seed, (uint64_t)number), right);
@@ -78,20 +90,25 @@ static bool plant_course(Planting *p, const Course *courses, int number, bool ri
         }
         id = out_tree_child_id(id, 0);
     } else {
-        const Course *from = &courses[course->from_course];
+        bool other = right && (course->right_course > 0 || course->right_point > 0);
+        int mother = other ? course->right_course : course->from_course;
+        int at = other ? course->right_point : course->from_point;
+        const Course *from = &courses[mother];
         bool side = right && from->both_sides;
-        parent = p->node[course->from_course][side][course->from_point];
-        if (right && !side && course->from_point + 1 < from->count) {
+        parent = p->node[mother][side][at];
+        if (right && !other && !side && at + 1 < from->count) {
             // both sides leave the middle one after the other, because forks are binary
             parent = p->tree->parent[p->tree->parent[parent]];
         }
-        point[count++] = to_vec3(from->point[course->from_point], side);
+        point[count++] = to_vec3(from->point[at], side);
+        before = to_vec3(from->point[at > 0 ? at - 1 : 0], side);
     }
     node[0] = parent;
     for (int i = course->from_course < 0; i < course->count; i++) {
         point[count++] = to_vec3(course->point[i], right);
     }
-    if (!follow(p, point, count, parent, node, id, e)) {
+    before = point_before(before, point[0], point[1]);
+    if (!follow(p, point, count, before, parent, node, id, e)) {
         return false;
     }
     if (course->from_course >= 0) { // index the points as in the table, without the first

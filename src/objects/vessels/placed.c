@@ -27,16 +27,51 @@ static bool find_origin(const OutTree *tree, Vec3 place, int64_t *nearest, Error
     return children;
 }
 
+// The way as a Bezier curve of four points, or of three: then the first counts twice.
+typedef struct Way {
+    Vec3 point[4];
+    bool swept;
+} Way;
+
+// A swept vessel begins where it leaves its mother, in her direction.
+static Way make_way(const OutTree *tree, int64_t parent, const GreatVessel *great)
+{
+    Vec3 by = great->bent ? great->by : vec3_lerp(great->from, great->to, 0.5f);
+    Way way = {{great->from, great->from, by, great->to}, false};
+    int32_t before = parent >= 0 ? tree->parent[parent] : -1;
+    if (great->sweep > 0.0f && before >= 0) {
+        Vec3 origin = tree->position[parent];
+        Vec3 along = vec3_normalize(vec3_sub(origin, tree->position[before]));
+        way.point[0] = origin;
+        way.point[1] = vec3_madd(origin, great->sweep, along);
+        way.swept = true;
+    }
+    return way;
+}
+
+static Vec3 way_at(const Way *way, float t)
+{
+    const Vec3 *p = way->point;
+    Vec3 end = vec3_lerp(vec3_lerp(p[1], p[2], t), vec3_lerp(p[2], p[3], t), t);
+    if (!way->swept) {
+        return end;
+    }
+    Vec3 start = vec3_lerp(vec3_lerp(p[0], p[1], t), vec3_lerp(p[1], p[2], t), t);
+    return vec3_lerp(start, end, t);
+}
+
 // Appends nodes from `parent` (-1 = a new root) along the way to its end.
-static bool follow(OutTree *tree, int64_t parent, const GreatVessel *way, float spacing,
+static bool follow(OutTree *tree, int64_t parent, const GreatVessel *great, float spacing,
                    int32_t colony, uint64_t id, Error *e)
 {
-    Vec3 by = way->bent ? way->by : vec3_lerp(way->from, way->to, 0.5f);
-    float length = vec3_distance(way->from, by) + vec3_distance(by, way->to);
+    const Way way = make_way(tree, parent, great);
+    float length = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        length += vec3_distance(way.point[k], way.point[k + 1]);
+    }
     int pieces = (int)(length / spacing) + 1;
     for (int k = 0; k <= pieces; k++) {
-        float t = (float)k / (float)pieces;
-        Vec3 at = vec3_lerp(vec3_lerp(way->from, by, t), vec3_lerp(by, way->to, t), t);
+        Vec3 at = way_at(&way, (float)k / (float)pieces);
         if (parent >= 0 && vec3_distance(at, tree->position[parent]) < 0.25f * spacing) {
             continue; // the vessel begins where it leaves the other
         }

@@ -50,6 +50,10 @@ static const Key GREAT_KEYS[] = {
      .given_offset = offsetof(GreatVessel, bent),
      .doc = "Point toward which its way bends (the middle control point of a quadratic Bezier "
             "curve); default: it runs straight."},
+    {KEY_OF(GreatVessel, sweep, "sweep", KEY_FLOAT), .high = 1000, .unit = "m",
+     .doc = "Way over which it turns away from the vessel that it leaves: it begins in that "
+            "one's direction, as branches leave with the flow, and continues another's end "
+            "without a bend; 0 = it turns off at once."},
     {0},
 };
 
@@ -59,15 +63,16 @@ static const Table GREAT_TABLE = {
         "Great vessels, placed by hand, from which growth starts in place of the stem at the inlet "
         "or of a body's own vessels. They may lie outside of the envelope. Those of arteries and "
         "veins must not touch.",
-    .example = "objects:\n"
-               "  - name: liver\n"
-               "    vessels:\n"
-               "      envelope: [{shape: ellipsoid, size: [0.1, 0.05, 0.06]}]\n"
-               "      great:\n"
-               "        - {from: [0, -0.08, 0], to: [0, -0.02, 0]}\n"
-               "        - {from: [0, -0.02, 0], to: [0.06, 0, 0], by: [0.02, 0.01, 0]}\n"
-               "        - {from: [0, -0.03, 0], to: [-0.06, 0, 0], by: [-0.02, 0.01, 0]}\n"
-               "        - {vein: true, from: [0, -0.08, 0.02], to: [0, -0.01, 0.02]}\n",
+    .example =
+        "objects:\n"
+        "  - name: liver\n"
+        "    vessels:\n"
+        "      envelope: [{shape: ellipsoid, size: [0.1, 0.05, 0.06]}]\n"
+        "      great:\n"
+        "        - {from: [0, -0.08, 0], to: [0, -0.02, 0]}\n"
+        "        - {from: [0, -0.02, 0], to: [0.06, 0, 0], by: [0.02, 0.01, 0], sweep: 0.01}\n"
+        "        - {from: [0, -0.03, 0], to: [-0.06, 0, 0], by: [-0.02, 0.01, 0], sweep: 0.01}\n"
+        "        - {vein: true, from: [0, -0.08, 0.02], to: [0, -0.01, 0.02]}\n",
     .size = sizeof(GreatVessel),
     .keys = GREAT_KEYS};
 
@@ -105,6 +110,9 @@ static const Key VESSELS_KEYS[] = {
      .doc =
          "Distance between the rings of faces of the skin, in radii of the vessel: the mesh is as "
          "fine as its vessels are thin. A curve_radius of 1e-9 gives all vessels a skin."},
+    {KEY_OF(VesselsParams, wall, "wall", KEY_FLOAT), .high = 0.9,
+     .doc = "Thickness of the wall where the vessels that have a skin are cut open at their roots, "
+            "in radii; 0 = their ends are closed and round."},
     {KEY_OF(VesselsParams, flow, "flow", KEY_GROUP), .table = &FLOW_TABLE,
      .doc = "Pressure and flow of the blood, for measures and network files."},
     ELEMENT_ROWS(VesselsParams),

@@ -16,6 +16,7 @@ typedef struct GreatVessel {
     Vec3 from, to; // m
     Vec3 by;       // m: the way bends toward this point; meaningless unless bent
     bool bent;
+    float sweep; // m: it leaves along its mother and turns off over about this way; 0 = at once
 } GreatVessel;
 
 typedef struct VesselsParams {
@@ -38,6 +39,7 @@ typedef struct VesselsParams {
     float curve_radius; // m: thicker vessels get a skin; 0 = all are round curves
     int skin_levels;
     float ring_spacing; // of the skin, in radii: see SkinParams
+    float wall;         // of roots that are cut open, in radii: see SkinParams
     FlowParams flow;    // for measures and exports
 } VesselsParams;
 

@@ -1,0 +1,199 @@
+#include "objects/venation/blade.h"
+
+#include "base/memory.h"
+#include "objects/venation/vein_curves.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { FLAT_ROWS = 160, FLAT_COLUMNS = 48, LEAST_ROWS = 160, MOST_ROWS = 1600 };
+
+#define ROWS_PER_AREOLE 4
+#define FURROW 6.0f // half-width of a vein's furrow, in its radii
+
+// ---- painting ----
+
+typedef struct Canvas {
+    const VenationParams *params;
+    int width, height;
+    float *pixel;
+} Canvas;
+
+// How a vein is painted: half-width and value in its middle, and whether as a round bar or as a
+// furrow with soft edges.
+typedef struct Brush {
+    float radius, peak;
+    bool bar;
+} Brush;
+
+// Position of a pixel's middle on the flat leaf.
+static Vec3 pixel_place(const Canvas *canvas, int column, int row)
+{
+    float y = canvas->params->outline.length * (1.0f - ((float)row + 0.5f) / (float)canvas->height);
+    float u = ((float)column + 0.5f) / (float)canvas->width;
+    return vec3((2.0f * u - 1.0f) * leaf_half_width(&canvas->params->outline, y), y, 0);
+}
+
+// d: distance from the middle, in half-widths.
+static float brush_value(const Brush *brush, float d)
+{
+    float inner = 1.0f - d * d;
+    return brush->peak * (d >= 1.0f ? 0.0f : brush->bar ? sqrtf(inner) : inner * inner);
+}
+
+// Paints the maximum of overlapping veins.
+static void paint(const Canvas *canvas, Vec3 a, Vec3 b, const Brush *brush)
+{
+    const LeafOutline *outline = &canvas->params->outline;
+    float shown = brush->radius;
+    float high = (a.y > b.y ? a.y : b.y) + shown, low = (a.y < b.y ? a.y : b.y) - shown;
+    int row0 = (int)((1.0f - high / outline->length) * (float)canvas->height);
+    int row1 = (int)((1.0f - low / outline->length) * (float)canvas->height) + 1;
+    for (int r = row0 > 0 ? row0 : 0; r <= row1 && r < canvas->height; r++) {
+        float half = leaf_half_width(outline, pixel_place(canvas, 0, r).y);
+        float left = (a.x < b.x ? a.x : b.x) - shown, right = (a.x > b.x ? a.x : b.x) + shown;
+        float scale = half > 0.0f ? 0.5f * (float)canvas->width / half : 0.0f;
+        int c0 = (int)clampf((left + half) * scale, 0.0f, (float)(canvas->width - 1));
+        int c1 = (int)clampf((right + half) * scale + 1.0f, 0.0f, (float)(canvas->width - 1));
+        for (int c = c0; c <= c1; c++) {
+            Vec3 p = pixel_place(canvas, c, r), along = vec3_sub(b, a), to = vec3_sub(p, a);
+            float length2 = vec3_dot(along, along);
+            float t = length2 > 0.0f ? clampf(vec3_dot(to, along) / length2, 0.0f, 1.0f) : 0.0f;
+            float d = vec3_distance(to, vec3_scale(along, t)) / shown;
+            float value = brush_value(brush, d);
+            float *at = &canvas->pixel[(size_t)r * (size_t)canvas->width + (size_t)c];
+            *at = value > *at ? value : *at;
+        }
+    }
+}
+
+// A vein's profile in textures is a round bar, blurred to a pixel.
+static Brush bar_brush(const Canvas *canvas, float radius)
+{
+    float pixel = canvas->params->outline.length / (float)canvas->height;
+    float shown = radius > 0.7f * pixel ? radius : 0.7f * pixel;
+    return (Brush){shown, sqrtf(radius / canvas->params->midrib) * radius / shown, true};
+}
+
+// Furrows are as wide as their veins are thick, and somewhat less deep.
+static Brush furrow_brush(const Canvas *canvas, float radius)
+{
+    float pixel = canvas->params->outline.length / (float)canvas->height;
+    float share = radius / canvas->params->midrib;
+    return (Brush){fmaxf(FURROW * radius, 1.5f * pixel), sqrtf(share * sqrtf(share)), false};
+}
+
+static void paint_all(const Canvas *canvas, const OutTree *tree, bool bars)
+{
+    for (int64_t i = 0; i < (int64_t)canvas->width * canvas->height; i++) {
+        canvas->pixel[i] = 0.0f;
+    }
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->parent[i] >= 0) {
+            float radius = tree->radius[i];
+            Brush brush = bars ? bar_brush(canvas, radius) : furrow_brush(canvas, radius);
+            paint(canvas, tree->position[tree->parent[i]], tree->position[i], &brush);
+        }
+    }
+}
+
+bool venation_paint(const void *given, const OutTree *tree, int width, int height, float *pixel,
+                    Error *e)
+{
+    if (width < 1 || height < 1) {
+        return error_set(e, ERROR_INPUT, "a picture of %d x %d; both must be above 0", width,
+                         height);
+    }
+    VenationParams params = venation_params_resolve(given);
+    Canvas canvas = {&params, width, height, pixel};
+    paint_all(&canvas, tree, true);
+    return true;
+}
+
+// ---- relief ----
+
+bool relief_init(Relief *relief, const VenationParams *params, const OutTree *tree, Error *e)
+{
+    *relief = (Relief){.params = params, .width = FLAT_COLUMNS, .height = FLAT_ROWS};
+    if (params->relief == 0.0f) {
+        return true;
+    }
+    int rows = ROWS_PER_AREOLE * params->detail;
+    relief->height = rows < LEAST_ROWS ? LEAST_ROWS : rows > MOST_ROWS ? MOST_ROWS : rows;
+    float columns = (float)relief->height * params->outline.width / params->outline.length;
+    relief->width = 8 + (int)fminf(columns, (float)MOST_ROWS);
+    relief->depth = memory_alloc((int64_t)relief->width * relief->height, sizeof *relief->depth, e);
+    if (!relief->depth) {
+        return false;
+    }
+    Canvas canvas = {params, relief->width, relief->height, relief->depth};
+    paint_all(&canvas, tree, false);
+    return true;
+}
+
+void relief_clear(Relief *relief)
+{
+    free(relief->depth);
+    relief->depth = NULL;
+}
+
+// The two pixels about a place along one axis, and the second one's share.
+static float between(float at, int size, int pixel[2])
+{
+    float inside = clampf(at * (float)size - 0.5f, 0.0f, (float)(size - 1));
+    pixel[0] = (int)inside;
+    pixel[1] = pixel[0] + 1 < size ? pixel[0] + 1 : pixel[0];
+    return inside - (float)pixel[0];
+}
+
+float relief_at(const Relief *relief, Vec3 p)
+{
+    const LeafOutline *outline = &relief->params->outline;
+    float half = leaf_half_width(outline, p.y);
+    if (!relief->depth || !(half > 0.0f)) {
+        return 0.0f;
+    }
+    int x[2], y[2];
+    float s = between(0.5f + 0.5f * p.x / half, relief->width, x);
+    float t = between(1.0f - p.y / outline->length, relief->height, y);
+    const float *low = relief->depth + (size_t)y[0] * (size_t)relief->width;
+    const float *high = relief->depth + (size_t)y[1] * (size_t)relief->width;
+    float depth = lerpf(lerpf(low[x[0]], low[x[1]], s), lerpf(high[x[0]], high[x[1]], s), t);
+    return -relief->params->relief * depth;
+}
+
+// ---- mesh ----
+
+Mesh *venation_blade(const VenationParams *params, const Relief *relief, const Transform *place,
+                     Error *e)
+{
+    int rows = relief->height, columns = relief->width;
+    Mesh *mesh = mesh_new(4, (int64_t)(rows + 1) * (columns + 1), (int64_t)rows * columns,
+                          MESH_NORMAL | MESH_UV, e);
+    if (!mesh) {
+        return NULL;
+    }
+    uint32_t *corner = mesh->index;
+    for (int r = 0; r <= rows; r++) {
+        float v = (float)r / (float)rows, y = v * params->outline.length;
+        float half = leaf_half_width(&params->outline, y);
+        for (int c = 0; c <= columns; c++) {
+            float u = (float)c / (float)columns;
+            int i = r * (columns + 1) + c;
+            Vec3 flat = vec3((2.0f * u - 1.0f) * half, y, 0);
+            flat.z = relief_at(relief, flat);
+            mesh->position[i] = transform_point(place, venation_bend(params, flat));
+            mesh->uv[i] = (Vec2){u, v};
+            if (r < rows && c < columns) {
+                uint32_t a = (uint32_t)i, b = a + (uint32_t)columns + 1;
+                corner[0] = a, corner[1] = a + 1, corner[2] = b + 1, corner[3] = b;
+                corner += 4;
+            }
+        }
+    }
+    if (!mesh_compute_normals(mesh, e)) {
+        mesh_free(mesh);
+        return NULL;
+    }
+    return mesh;
+}
