@@ -277,7 +277,7 @@ still beech-wood beech-wood
 still birch-grove birch-grove
 still spruce-snow spruce-snow
 still forest-fog forest-fog
-fine hoar-birch hoar-birch 5
+fine hoar-birch hoar-birch 4
 still hoar-fence hoar-fence
 still lsystem-fern lsystem-fern
 still figure-19 lsystem-tree --size 1600x900

@@ -11,7 +11,7 @@
 #include "objects/common/recipe.h"
 #include "outtree/flow.h"
 
-enum { OBJECT_MOST_MATERIALS = 12 };
+enum { OBJECT_MOST_MATERIALS = 13 };
 
 // Another object, whose surface a growth keeps clear of.
 typedef struct ClearOf {
@@ -180,7 +180,11 @@ typedef struct Kind {
         MATERIAL_ROW(CONE, "cone_material",                                                        \
                      "Material of cones, catkins, acorns' cups, buds and spines; default: cone."), \
         MATERIAL_ROW(STALK, "stalk_material",                                                      \
-                     "Material of stalks, sepals and stamens; default: stalk.")
+                     "Material of stalks, sepals and plain stamens; default: stalk.")
+
+#define ANTHER_MATERIAL_ROW(INDEX)         \
+    MATERIAL_ROW(INDEX, "anther_material", \
+                 "Material of a blossom's anthers, at an organ's detail 2; default: anther.")
 
 #define SNOW_MATERIAL_ROW(INDEX) \
     MATERIAL_ROW(INDEX, "snow_material", "Material of settled snow; default: snow.")

@@ -63,7 +63,8 @@ static void organs_have_their_tissues_and_size(void **state)
             make(&params, mesh);
             Aabb box = aabb_empty();
             for (int t = 0; t < TISSUES; t++) {
-                assert_int_equal(mesh[t] != NULL, tissues[kind] >> t & 1u);
+                bool anthers = t == TISSUE_ANTHER && kind == ORGAN_BLOSSOM && params.detail == 2;
+                assert_int_equal(mesh[t] != NULL, anthers || (tissues[kind] >> t & 1u));
                 for (int64_t f = 0; mesh[t] && f < mesh[t]->face_count; f++) {
                     assert_true(quad_area(mesh[t], f) > 1e-11);
                 }
@@ -101,21 +102,112 @@ static void clusters_have_as_many_as_asked_for(void **state)
     }
 }
 
+static int64_t pieces(const Mesh *mesh)
+{
+    MeshTopology topology = {0};
+    assert_true(!mesh || mesh_topology(mesh, &topology, NULL));
+    return topology.component_count;
+}
+
+enum { STAMENS = 30 }; // of a blossom of detail 2; their threads are of the petals' material
+
 static void a_blossom_has_its_petals(void **state)
 {
     (void)state;
     OrganParams params = plain(ORGAN_BLOSSOM);
-    for (params.petals = 4; params.petals < 25; params.petals += 5) {
-        Mesh *mesh[TISSUES];
-        MeshTopology topology;
-        make(&params, mesh);
-        assert_true(mesh_topology(mesh[TISSUE_PETAL], &topology, NULL));
-        assert_int_equal(topology.component_count, params.petals);
-        clear(mesh);
+    for (params.detail = 1; params.detail <= 2; params.detail++) {
+        int64_t stamens = params.detail == 2 ? STAMENS : 0;
+        for (params.petals = 4; params.petals < 25; params.petals += 5) {
+            Mesh *mesh[TISSUES];
+            make(&params, mesh);
+            assert_int_equal(pieces(mesh[TISSUE_PETAL]), params.petals + stamens);
+            assert_int_equal(pieces(mesh[TISSUE_ANTHER]), stamens);
+            clear(mesh);
+        }
     }
 }
 
-// A fruit without a dimple is an ellipsoid: its volume by the divergence theorem.
+// From near, the petals of an open flower rise toward their ends around the stamens, as a shallow
+// bowl does; plain ones sink.
+static void a_blossom_is_hollow(void **state)
+{
+    (void)state;
+    OrganParams params = plain(ORGAN_BLOSSOM);
+    params.stalk = 0.0f;
+    params.open = 1.0f;
+    float rise[3];
+    for (params.detail = 1; params.detail <= 2; params.detail++) {
+        Mesh *mesh[TISSUES];
+        make(&params, mesh);
+        double sum = 0.0, ends = 0.0;
+        for (int64_t v = 0; v < mesh[TISSUE_PETAL]->vertex_count; v++) {
+            Vec3 p = mesh[TISSUE_PETAL]->position[v];
+            if (p.x * p.x + p.z * p.z > 0.49f * params.length * params.length) {
+                sum += (double)p.y;
+                ends += 1.0;
+            }
+        }
+        rise[params.detail] = (float)(sum / ends) / params.length;
+        clear(mesh);
+    }
+    assert_true(rise[2] > 0.22f && rise[2] < 0.5f);
+    assert_true(rise[1] < 0.18f);
+}
+
+// Closed blossoms have a body in place of petals, no stamens, and stalks two thirds as long.
+static void buds_are_closed(void **state)
+{
+    (void)state;
+    OrganParams params = plain(ORGAN_BLOSSOM);
+    params.per_cluster = 40;
+    params.spread = 0.0f;
+    Mesh *mesh[TISSUES];
+    make(&params, mesh);
+    float open = mesh_bounds(mesh[TISSUE_PETAL]).low.y;
+    clear(mesh);
+    params.buds = 1.0f;
+    make(&params, mesh);
+    assert_int_equal(pieces(mesh[TISSUE_PETAL]), params.per_cluster);
+    assert_null(mesh[TISSUE_ANTHER]);
+    float closed = mesh_bounds(mesh[TISSUE_PETAL]).low.y;
+    assert_true(closed > 0.55f * open && closed < 0.75f * open);
+    clear(mesh);
+    params.buds = 0.3f;
+    make(&params, mesh);
+    int64_t flowers = pieces(mesh[TISSUE_ANTHER]) / STAMENS;
+    assert_true(flowers > 20 && flowers < 36); // 28 are expected
+    assert_int_equal(pieces(mesh[TISSUE_PETAL]),
+                     params.per_cluster - flowers + flowers * (params.petals + STAMENS));
+    clear(mesh);
+}
+
+// A cluster on a short shoot is the same, higher by the shoot's length, which ends in scales.
+static void clusters_stand_on_spurs(void **state)
+{
+    (void)state;
+    OrganParams params = plain(ORGAN_BLOSSOM);
+    params.per_cluster = 3;
+    Mesh *low[TISSUES], *high[TISSUES];
+    for (params.detail = 1; params.detail <= 2; params.detail++) {
+        params.spur = 0.0f;
+        make(&params, low);
+        params.spur = 0.01f;
+        make(&params, high);
+        assert_int_equal(low[TISSUE_GREEN]->vertex_count, high[TISSUE_GREEN]->vertex_count);
+        for (int64_t v = 0; v < low[TISSUE_GREEN]->vertex_count; v++) {
+            Vec3 up = vec3_sub(high[TISSUE_GREEN]->position[v], low[TISSUE_GREEN]->position[v]);
+            assert_true(vec3_distance(up, vec3(0, params.spur, 0)) < 1e-6f);
+        }
+        assert_null(low[TISSUE_WOOD]);
+        Aabb shoot = mesh_bounds(high[TISSUE_WOOD]);
+        assert_true(fabsf(shoot.low.y) < 1e-6f && shoot.high.y >= params.spur);
+        assert_true((shoot.high.y > 1.2f * params.spur) == (params.detail == 2)); // scales
+        assert_true(shoot.high.x - shoot.low.x < params.spur);
+        clear(low);
+        clear(high);
+    }
+}
+
 // The form for a few pixels has the petals of the true one: about their area and reach, in a tenth
 // of the faces, and stalks, but nothing else.
 static void a_small_blossom_keeps_its_white(void **state)
@@ -148,6 +240,7 @@ static void a_small_blossom_keeps_its_white(void **state)
     clear(small);
 }
 
+// A fruit without a dimple is an ellipsoid: its volume by the divergence theorem.
 static void a_fruit_is_an_ellipsoid(void **state)
 {
     (void)state;
@@ -196,6 +289,9 @@ int main(void)
         cmocka_unit_test(organs_have_their_tissues_and_size),
         cmocka_unit_test(clusters_have_as_many_as_asked_for),
         cmocka_unit_test(a_blossom_has_its_petals),
+        cmocka_unit_test(a_blossom_is_hollow),
+        cmocka_unit_test(buds_are_closed),
+        cmocka_unit_test(clusters_stand_on_spurs),
         cmocka_unit_test(a_small_blossom_keeps_its_white),
         cmocka_unit_test(a_fruit_is_an_ellipsoid),
         cmocka_unit_test(cones_open),

@@ -63,12 +63,15 @@ static void a_mix_has_shares_materials_and_a_season(void **state)
 
 // ---- forests
 
+// The birch's form is its own here, whatever the library's: a forest, not a species, is tested.
 #define FOREST(MORE)                                                                             \
     "objects:\n  - name: wood\n    forest: {height: 6, radius: 14, glade: 0, ferns: 0, stands: " \
     "1, "                                                                                        \
     "stand_trees: 4, leaves: {max_count: 300}, species: [{share: 2, tree: {species: beech, "     \
     "light: "                                                                                    \
-    "{seasons: 20}}}, {tree: {species: silver_birch, light: {seasons: 20}}}]" MORE "}\n"
+    "{seasons: 20}}}, {tree: {species: silver_birch, light: {seasons: 20, apical_control: "      \
+    "[0.6, 0.545], shade: 0.3, shoot: [6, 6, 6], branch_angle: [38, 45, 50], tropism: [0.06, "   \
+    "0.03, -0.22], unevenness: 0}}}]" MORE "}\n"
 
 static void a_forest_is_of_its_species_on_any_threads(void **state)
 {

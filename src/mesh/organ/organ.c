@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-enum { STREAM_ONES = 10 }; // of an organ; ONES + i: number i of the cluster
+enum { STREAM_SPUR = 1, STREAM_ONES = 10 }; // of an organ; ONES + i: number i of the cluster
 enum { STREAM_OPEN = 1, STREAM_TURN = 2, STREAM_STALK = 3, STREAM_SIZE = 4, STREAM_FORM = 5 };
 
 void organ_set_place(OrganBuild *build, const Transform *place)
@@ -61,6 +61,9 @@ void organ_sheet(Quads *quads, const float *length, const float *half, const flo
     quads_grid(quads, first, rows, COLUMNS);
 }
 
+// Length of a closed blossom's stalk, which still grows, relative to an open one's.
+#define CLOSED_STALK 0.65f
+
 static void add_one(OrganBuild *build, uint64_t seed)
 {
     static void (*const add[])(OrganBuild *, uint64_t) = {
@@ -77,10 +80,10 @@ static Vec3 start_of(const OrganParams *p, int i, float *lean)
     float rank = ((float)i + 0.5f) / (float)p->per_cluster;
     if (p->cluster == CLUSTER_RACEME) {
         *lean = p->spread * (1.0f - 0.5f * rank);
-        return vec3(0, p->axis * (0.12f + 0.88f * rank), 0);
+        return vec3(0, p->spur + p->axis * (0.12f + 0.88f * rank), 0);
     }
     *lean = p->per_cluster > 1 ? p->spread * sqrtf(rank) : 0.0f;
-    return vec3(0, 0, 0);
+    return vec3(0, p->spur, 0);
 }
 
 static void add_cluster(OrganBuild *build, uint64_t seed)
@@ -88,7 +91,10 @@ static void add_cluster(OrganBuild *build, uint64_t seed)
     const OrganParams *p = build->params;
     float thick = fmaxf(0.03f * p->width, 0.0004f);
     if (p->cluster == CLUSTER_RACEME) {
-        organ_stalk(build, vec3(0, p->axis, 0), 1.3f * thick);
+        organ_stalk(build, vec3(0, p->spur + p->axis, 0), 1.3f * thick);
+    }
+    if (p->spur > 0.0f) {
+        organ_spur(build, random_key(seed, STREAM_SPUR));
     }
     for (int i = 0; i < p->per_cluster; i++) {
         uint64_t key = random_key(seed, STREAM_ONES + (uint64_t)i);
@@ -98,7 +104,9 @@ static void add_cluster(OrganBuild *build, uint64_t seed)
         float turn =
             (float)i * ORGAN_DIVERGENCE + random_range(random_key(key, STREAM_TURN), -20.0f, 20.0f);
         Transform frame = organ_frame(start, lean, turn);
+        uint64_t form = random_key(key, STREAM_FORM);
         float stalk = p->stalk * random_range(random_key(key, STREAM_STALK), 0.8f, 1.15f);
+        stalk *= organ_is_closed(p, form) ? CLOSED_STALK : 1.0f;
         Vec3 end = transform_point(&frame, vec3(0, stalk, 0));
         organ_set_place(build, NULL);
         if (stalk > 0.0f) {
@@ -113,7 +121,7 @@ static void add_cluster(OrganBuild *build, uint64_t seed)
             }
         }
         organ_set_place(build, &own);
-        add_one(build, random_key(key, STREAM_FORM));
+        add_one(build, form);
         organ_set_place(build, NULL);
     }
 }

@@ -29,10 +29,11 @@ typedef enum OrganCluster {
 // What a part of an organ is made of: each has a material of its own.
 typedef enum OrganTissue {
     TISSUE_PETAL,
-    TISSUE_FLESH, // of fruit and nuts, the disc of a daisy
-    TISSUE_WOOD,  // scales of cones, catkins and buds, cups, spines
-    TISSUE_GREEN, // stalks, sepals, stamens
-    TISSUE_WING,  // thin: of winged nuts
+    TISSUE_FLESH,  // of fruit and nuts, the disc of a daisy
+    TISSUE_WOOD,   // scales of cones, catkins and buds, cups, spines
+    TISSUE_GREEN,  // stalks, sepals, stamens
+    TISSUE_WING,   // thin: of winged nuts
+    TISSUE_ANTHER, // pollen bags of a blossom of detail 2
     TISSUES
 } OrganTissue;
 
@@ -47,6 +48,8 @@ typedef struct OrganParams {
     float spread;    // degrees between the outermost stalks and +Y
     float open;      // 0..1: from closed to open petals, scales or wings
     int petals;      // more than 5 in several whorls
+    float buds;      // 0..1: share of a cluster's blossoms that are still closed
+    float spur;      // length of the short shoot on which the cluster stands; 0 = none
     float dimple;    // 0..1: of fruit, at both ends; of a daisy the disc's radius, in petal lengths
     int detail;      // 1 or 2; 0 = for organs of a few pixels: a cone or catkin without
                      // scales, a blossom of flat petals without what stands between them

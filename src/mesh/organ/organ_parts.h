@@ -28,6 +28,17 @@ void organ_stalk(OrganBuild *build, Vec3 p, float radius);
 void organ_sheet(Quads *quads, const float *length, const float *half, const float *lift, int rows,
                  float cup);
 
+// A petal of a close-up from the origin along +Y that faces +Z: hollow, with a wavy margin and a
+// notch at its end.
+void organ_petal(Quads *quads, float length, float width, float open, uint64_t key);
+
+// A short shoot from the origin along +Y: ringed by the scars of past years, ended by the open
+// scales of the bud that the cluster has come out of.
+void organ_spur(OrganBuild *build, uint64_t seed);
+
+// Is the blossom of this seed still closed?
+bool organ_is_closed(const OrganParams *params, uint64_t seed);
+
 // The kinds: each adds one organ at the origin along +Y, without its stalk.
 void organ_blossom(OrganBuild *build, uint64_t seed);
 void organ_daisy(OrganBuild *build, uint64_t seed);

@@ -51,7 +51,8 @@ enum {
     CLIMBER_BLOSSOM,
     CLIMBER_FRUIT,
     CLIMBER_CONE,
-    CLIMBER_STALK
+    CLIMBER_STALK,
+    CLIMBER_ANTHER
 };
 
 // Streams of the object's seed.

@@ -55,7 +55,8 @@ bool climber_geometry(const void *given, const Grown *grown, const Placing *plac
                                     [TISSUE_FLESH] = CLIMBER_FRUIT,
                                     [TISSUE_WOOD] = CLIMBER_CONE,
                                     [TISSUE_GREEN] = CLIMBER_STALK,
-                                    [TISSUE_WING] = CLIMBER_LEAF}};
+                                    [TISSUE_WING] = CLIMBER_LEAF,
+                                    [TISSUE_ANTHER] = CLIMBER_ANTHER}};
     bool done = branches_add_twigs(grown->tree, &twigs, placing, e) &&
                 organs_add(grown->tree, &organs, placing, e);
     point_tree_free(&stems.nodes);

@@ -50,6 +50,7 @@ static const Key MATERIALS[] = {
     TWIG_MATERIAL_ROW(CLIMBER_TWIG),
     LEAF_MATERIAL_ROW(CLIMBER_LEAF),
     ORGAN_MATERIAL_ROWS(CLIMBER_BLOSSOM, CLIMBER_FRUIT, CLIMBER_CONE, CLIMBER_STALK),
+    ANTHER_MATERIAL_ROW(CLIMBER_ANTHER),
     {0},
 };
 
@@ -57,7 +58,7 @@ const Kind kind_climber = {
     .variant = {KIND_ROW("climber", &climber_table,
                          "A climbing plant on another object, such as ivy on a wall."),
                 MATERIALS},
-    .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk"},
+    .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk", "anther"},
     .over = over,
     .over_key = "climbs",
     .keeps_clear = true,

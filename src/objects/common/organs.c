@@ -220,6 +220,8 @@ static bool add_variant(const OrganGroup *group, int variant, LeafBatch *batch,
                         .spread = group->spread,
                         .open = group->open,
                         .petals = group->petals,
+                        .buds = group->buds,
+                        .spur = group->spur,
                         .dimple = group->dimple,
                         .detail = group->detail};
     uint64_t key = random_key(random_key(seed, STREAM_MESHES), (uint64_t)variant);

@@ -33,6 +33,7 @@ typedef struct OrganGroup {
     float length, width, stalk; // m
     float open;
     int petals;
+    float buds, spur;
     float dimple;
     float size_variation; // 0..1
     int variants, detail;

@@ -68,6 +68,11 @@ static const Key ORGAN_KEYS[] = {
             "of a samara."},
     {KEY_OF(OrganGroup, petals, "petals", KEY_INT), .low = 3, .high = 60,
      .doc = "Petals of a blossom, where more than 5 stand in several whorls, or rays of a daisy."},
+    {KEY_OF(OrganGroup, buds, "buds", KEY_FLOAT), .high = 1,
+     .doc = "Share of the blossoms of a cluster that are still closed, on shorter stalks."},
+    {KEY_OF(OrganGroup, spur, "spur", KEY_FLOAT), .high = 1, .unit = "m",
+     .doc = "Length of the ringed short shoot that each cluster stands on, with the open scales of "
+            "its bud at detail 2, as a cherry's, of the cones' material. 0 = none."},
     {KEY_OF(OrganGroup, dimple, "dimple", KEY_FLOAT), .high = 1,
      .doc = "How far the ends of a fruit are drawn in: 0 = an olive, 1 = an apple; of a daisy the "
             "disc's radius, relative to a ray's length."},

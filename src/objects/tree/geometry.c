@@ -55,7 +55,8 @@ static bool add_living(const OutTree *tree, const TreePlan *plan, const SkinPara
                                     [TISSUE_FLESH] = TREE_FRUIT,
                                     [TISSUE_WOOD] = TREE_CONE,
                                     [TISSUE_GREEN] = TREE_STALK,
-                                    [TISSUE_WING] = TREE_LEAF}};
+                                    [TISSUE_WING] = TREE_LEAF,
+                                    [TISSUE_ANTHER] = TREE_ANTHER}};
     return add_bark(tree, params, skin, placing, e) &&
            branches_add_twigs(tree, &twigs, placing, e) && organs_add(tree, &organs, placing, e);
 }

@@ -27,6 +27,7 @@ static const Key SHARE_KEYS[] = {
     SHARE_MATERIAL(TREE_MISTLETOE, "mistletoe_material", "Material of mistletoe."),
     SHARE_MATERIAL(TREE_MOSS, "moss_material", "Material of moss."),
     SHARE_MATERIAL(TREE_RIME, "rime_material", "Material of hoar frost."),
+    SHARE_MATERIAL(TREE_ANTHER, "anther_material", "Material of anthers."),
     {0},
 };
 
@@ -53,7 +54,8 @@ const char *tree_mix_material(const TreeShare *mix, int count, int i)
         [TREE_BARK] = "bark",           [TREE_TWIG] = "twig",   [TREE_LEAF] = "leaf",
         [TREE_BLOSSOM] = "blossom",     [TREE_FRUIT] = "fruit", [TREE_CONE] = "cone",
         [TREE_STALK] = "stalk",         [TREE_SNOW] = "snow",   [TREE_DEADWOOD] = "deadwood",
-        [TREE_MISTLETOE] = "mistletoe", [TREE_MOSS] = "moss",   [TREE_RIME] = "rime"};
+        [TREE_MISTLETOE] = "mistletoe", [TREE_MOSS] = "moss",   [TREE_RIME] = "rime",
+        [TREE_ANTHER] = "anther"};
     if (i >= count * TREE_ROLES) {
         return NULL;
     }

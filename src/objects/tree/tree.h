@@ -125,6 +125,7 @@ enum {
     TREE_MISTLETOE,
     TREE_MOSS,
     TREE_RIME,
+    TREE_ANTHER,
     TREE_ROLES
 };
 
