@@ -184,6 +184,7 @@ Travel path_scatter_in_cloud(Path *path, float t)
     path->in_cloud = true;
     path->mirrored = path->straight = false;
     path->from = (LightReceiver){.position = point};
+    path->weighed = true;
     float u[4], v[4];
     uint32_t set = (uint32_t)(SET_MEDIUM + SETS_PER_STRETCH * path->stretches++);
     sampler_draw(&path->sampler, set, u);

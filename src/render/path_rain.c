@@ -79,7 +79,7 @@ static void scatter(Path *path, float t, const float u[4], const float v[4])
     LightReceiver from = {.position = point};
     LightSample light;
     bool samples = lights_can_sample(tracer->lights);
-    if (samples && lights_sample(tracer->lights, &from, u, &light)) {
+    if (samples && lights_sample_mixed(tracer->lights, &from, NEAR_BY_POWER, u, &light)) {
         Vec3 density = rain_phase(phase, vec3_dot(path->ray.direction, light.direction));
         float weight = isinf(light.distance) ? power_heuristic(light.pdf, rain_phase_pdf(density))
                                              : 1.0f; // lamps are only sampled

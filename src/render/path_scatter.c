@@ -54,14 +54,14 @@ static float fan_density(const Fan *fan, float t)
            ((fan->angle1 - fan->angle0) * (fan->distance * fan->distance + off * off));
 }
 
-// Draws a point of the stretch and a light sample from there; false if there is none. *pdf: of
-// both, per metre and steradian.
+// Draws a point of the stretch and a light sample from there, with the density that light sampling
+// from the point would have; false if there is none. *pdf: of both, per metre and steradian.
 static bool draw_gathering(const Path *path, const Stretch *s, const float u[4], const float v[4],
                            float *t, SegmentLight *light, float *pdf)
 {
     const Lights *lights = path->tracer->lights;
     const Filling *filling = &path->media.now;
-    LightChoice choice = lights_choose(lights, u[0]);
+    LightChoice choice = lights_choose_along(lights, &s->segment, u[0]);
     bool pivoted = choice.near && v[2] < 0.5f;
     LightPivot pivot;
     Fan fan;
@@ -89,6 +89,9 @@ static bool draw_gathering(const Path *path, const Stretch *s, const float u[4],
         bool seen = fan_from(&s->segment, light->pivot.position, &fan);
         *pdf = 0.5f * (*pdf + (seen ? light->pivot_pdf * fan_density(&fan, *t) : 0.0f));
     }
+    *pdf *= choice.ratio;
+    LightReceiver receiver = {.position = point};
+    light->light.pdf *= choice.near ? lights_ratio(lights, &receiver, choice.index) : 1.0f;
     return *pdf > 0.0f;
 }
 
@@ -170,6 +173,7 @@ static Travel scatter(Path *path, const MediumLine *line, float length, float pd
     float phase = phase_density(filling->anisotropy, vec3_dot(path->ray.direction, direction));
     path->bsdf_pdf = sampled ? phase : 0.0f;
     path->near = NEAR_BY_POWER;
+    path->weighed = true;
     path->from = (LightReceiver){.position = point};
     path->start = point;
     path->travelled = 0.0f;

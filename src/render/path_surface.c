@@ -74,6 +74,15 @@ static void note_mirrored(const Path *path, const Bsdf *bsdf)
     path->result->normal = bsdf->normal;
 }
 
+// The density of the path's ray, as it is weighed against light sampling of this lamp (-1: glowing
+// geometry).
+static float pdf_against(const Path *path, int lamp)
+{
+    const Lights *lights = path->tracer->lights;
+    float ratio = path->weighed ? lights_ratio(lights, &path->from, lamp) : 1.0f;
+    return path->bsdf_pdf / (ratio * lights_mix(lights, path->near, true));
+}
+
 // Fills the vertex's BSDF. False where the path ends: on what glows, at its greatest depth, by
 // roulette.
 static bool shade(Vertex *vertex)
@@ -98,8 +107,8 @@ static bool shade(Vertex *vertex)
             return false;
         }
         SurfacePlace place = accel_place(tracer->accel, &vertex->hit);
-        float pdf = path->bsdf_pdf / lights_mix(tracer->lights, path->near, true);
-        float glow = lights_glow(tracer->lights, &place, point->position, &path->from, pdf);
+        float glow = lights_glow(tracer->lights, &place, point->position, &path->from,
+                                 pdf_against(path, -1));
         path_add_light(path, vec3_scale(bsdf->emission, glow));
         return false;
     }
@@ -112,6 +121,7 @@ static bool shade(Vertex *vertex)
     }
     if (!(bsdf->traits & TRAIT_THIN)) {
         path->near = NEAR_BY_POWER;
+        path->weighed = false;
         bool opaque = bsdf->traits & TRAIT_OPAQUE;
         path->from =
             (LightReceiver){point->position, opaque ? point->geometric_normal : vec3_splat(0.0f)};
@@ -131,9 +141,8 @@ Arrival path_arrive(Vertex *vertex)
         if (path->lamps_known) {
             return ARRIVAL_ENDED;
         }
-        float pdf = path->bsdf_pdf / lights_mix(tracer->lights, path->near, true);
         path_add_light(path, lights_emitted(tracer->lights, light, path->start, path->ray.direction,
-                                            path->travelled + hit->t, pdf));
+                                            path->travelled + hit->t, pdf_against(path, light)));
         return ARRIVAL_ENDED;
     }
     path->travelled += hit->t;

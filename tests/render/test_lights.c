@@ -1,6 +1,7 @@
 // Lights against closed forms; sampling lights and meeting them by chance must agree.
 #include "tiny_world.h"
 
+#include "base/random.h"
 #include "image/image.h"
 #include "render/light/lights.h"
 
@@ -131,6 +132,48 @@ static double brute_irradiance(const Lights *lights, Vec3 normal, int n)
     return summed_irradiance(lights, normal, 0.0f, n);
 }
 
+// A lamp at hand and three weak ones far away, before the sky: what is sampled of lamps has the
+// mean of the closed form, radiance times the solid angle of a cone, and the far ones add no noise.
+static void near_lights_are_chosen_by_place(void **state)
+{
+    (void)state;
+    World *world = tiny_world(8, 8, 1, 0.5f);
+    world->sky.kind = SKY_SUN_SKY;
+    const Vec3 center[] = {{1, 2, 0}, {400, 30, 0}, {-300, 20, 50}, {0, 40, 500}};
+    double wanted = 0.0;
+    for (int i = 0; i < 4; i++) {
+        float radiance = i == 0 ? 50.0f : 3.0f, radius = i == 0 ? 0.1f : 2.0f;
+        double sine = (double)(radius / vec3_length(center[i]));
+        add_light(world, sphere_light(center[i], radius, radiance));
+        wanted += 2.0 * (double)PI_F * (1.0 - sqrt(1.0 - sine * sine)) * (double)radiance;
+    }
+    Run run = run_default();
+    Lights *lights = lights_new(world, 600.0f, &run, NULL);
+    assert_non_null(lights);
+    const float near[] = {NEAR_BY_POWER, 0.4f, 1.0f};
+    for (int k = 0; k < 3; k++) {
+        enum { N = 40000 };
+        double mean = 0.0, square = 0.0, hits = 0.0;
+        for (int i = 0; i < N; i++) {
+            const float u[3] = {random_unit(random_key(1, (uint64_t)i)),
+                                random_unit(random_key(2, (uint64_t)i)), ((float)i + 0.5f) / N};
+            LightSample s;
+            const LightReceiver at = {.position = {0, 0, 0}};
+            if (lights_sample_mixed(lights, &at, near[k], u, &s) && isfinite(s.distance)) {
+                double light = (double)(luminance(s.radiance) / s.pdf);
+                mean += light / N;
+                square += light * light;
+                hits += 1.0;
+            }
+        }
+        ASSERT_NEAR(mean / wanted, 1.0, 2e-3);
+        // without the place 3.9: three of four samples find next to nothing
+        ASSERT_NEAR(square * hits / (mean * mean * N * N), 1.12, 0.1);
+    }
+    lights_free(lights);
+    world_free(world);
+}
+
 // A picture with one very bright and some dim places.
 static char *write_environment(void)
 {
@@ -239,6 +282,7 @@ int main(void)
         cmocka_unit_test(sphere_irradiance_closed_form),
         cmocka_unit_test(quad_irradiance_closed_form),
         cmocka_unit_test(lights_are_seen),
+        cmocka_unit_test(near_lights_are_chosen_by_place),
         cmocka_unit_test(environment_is_where_it_should_be),
         cmocka_unit_test(sampling_agrees_with_brute_force),
         cmocka_unit_test(path_tracing_agrees_with_brute_force),

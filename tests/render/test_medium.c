@@ -205,9 +205,9 @@ static double line_scattering(double scattering)
     return 1000.0 * scattering * sum;
 }
 
-static void a_channel_glows_in_fog(void **state)
+// The film of such a channel, with weak lamps far away or without.
+static Film *trace_channel(bool lamps)
 {
-    (void)state;
     World *world = tiny_world(8, 8, 256, 0.5f);
     world->render.max_depth = 1;
     world->camera.fov = 0.01f;
@@ -223,12 +223,37 @@ static void a_channel_glows_in_fog(void **state)
         curves->radius[i] = 0.01f;
     }
     add_part(world, (Part){.kind = PART_CURVES, .curves = curves, .material = 0});
+    for (int i = 0; i < (lamps ? 3 : 0); i++) {
+        add_light(world, (Light){.kind = LIGHT_SPHERE,
+                                 .radiance = vec3_splat(1.0f),
+                                 .center = {30.0f - 30.0f * (float)i, 20.0f, -10.0f},
+                                 .radius = 0.05f});
+    }
     Film *film = trace(world, 2, NULL);
+    world_free(world);
+    return film;
+}
+
+static void a_channel_glows_in_fog(void **state)
+{
+    (void)state;
+    Film *film = trace_channel(false);
     double wanted = line_scattering(0.02);
     ASSERT_NEAR(mean_luminance(film) / wanted, 1.0, 0.01 + 3.0 * mean_error(film) / wanted);
     assert_true(mean_error(film) < 0.02 * wanted);
     film_free(film);
-    world_free(world);
+}
+
+// They bring a millionth of the light, and must not take samples from the channel.
+static void weak_lamps_far_away_add_no_noise(void **state)
+{
+    (void)state;
+    Film *film = trace_channel(false), *lamps = trace_channel(true);
+    double wanted = line_scattering(0.02);
+    ASSERT_NEAR(mean_luminance(lamps) / wanted, 1.0, 0.01 + 3.0 * mean_error(lamps) / wanted);
+    assert_true(mean_error(lamps) < 1.15 * mean_error(film)); // 2.03 times by powers alone
+    film_free(film);
+    film_free(lamps);
 }
 
 // ---- furnaces: what only scatters cannot be seen where light is even
@@ -345,6 +370,7 @@ int main(void)
         cmocka_unit_test(light_fades_by_beer_lambert),
         cmocka_unit_test(single_scattering_equals_the_integral),
         cmocka_unit_test(a_channel_glows_in_fog),
+        cmocka_unit_test(weak_lamps_far_away_add_no_noise),
         cmocka_unit_test(scattering_keeps_energy),
         cmocka_unit_test(guides_see_through_media_without_chance),
         cmocka_unit_test(light_is_sampled_through_clear_bodies),

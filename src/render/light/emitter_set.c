@@ -120,6 +120,7 @@ static bool plant_tree(EmitterSet *set, const World *world, const Run *run, Erro
         const Emitter *emitter = &set->emitter[i];
         int material = world->geometry.part[emitter->part].material;
         bounds[i] = emitter_bounds(emitter, luminance(world->material[material].radiance));
+        set->box = i == 0 ? bounds[i].box : aabb_union(set->box, bounds[i].box);
     }
     set->tree = bounds ? light_tree_new(bounds, set->count, run, e) : NULL;
     free(bounds);

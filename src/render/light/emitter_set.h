@@ -13,6 +13,7 @@ typedef struct EmitterSet {
     int64_t count;
     int64_t *first;  // owned: of each part, its first emitter; -1 where it does not glow
     LightTree *tree; // owned; NULL where nothing glows
+    Aabb box;        // of all of them
 } EmitterSet;
 
 // The place of a hit on a part.

@@ -10,6 +10,20 @@ float lamp_power(const Light *light, float scene_radius)
     return luminance(light->radiance) * area / (scene_radius * scene_radius);
 }
 
+LightBounds lamp_bounds(const Light *light)
+{
+    Vec3 far = vec3_add(light->edge_u, light->edge_v), wide = vec3_splat(light->radius);
+    Aabb ball = {vec3_sub(light->center, wide), vec3_add(light->center, wide)}, quad = aabb_empty();
+    const Vec3 corner[4] = {vec3(0.0f, 0.0f, 0.0f), light->edge_u, light->edge_v, far};
+    for (int i = 0; i < 4; i++) {
+        quad = aabb_add(quad, vec3_add(light->corner, corner[i]));
+    }
+    return (LightBounds){.box = light->kind == LIGHT_QUAD ? quad : ball,
+                         .axis = {0.0f, 1.0f, 0.0f},
+                         .cos_normal = -1.0f,
+                         .power = PI_F * lamp_power(light, 1.0f)};
+}
+
 // Density per steradian of a uniform point of the quad that lies in this direction.
 static float quad_density(const Light *light, Vec3 direction, float distance)
 {

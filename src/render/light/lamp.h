@@ -8,6 +8,9 @@
 // Power that reaches the scene, over pi^2 R^2 for a scene of radius R.
 float lamp_power(const Light *light, float scene_radius);
 
+// Its flux, and a box around it; as if it emitted all around.
+LightBounds lamp_bounds(const Light *light);
+
 // Samples light toward `point` from a position drawn with two uniform numbers; pdf per steradian.
 // False if it emits none in that direction.
 bool lamp_sample(const Light *light, Vec3 point, const float u[2], LightSample *sample);

@@ -62,6 +62,7 @@ Lights *lights_new(const World *world, float scene_radius, const Run *run, Error
         return NULL;
     }
     fill_shares(lights, fmaxf(scene_radius, 1e-6f));
+    lights_find_near(lights);
     return lights;
 }
 
@@ -84,21 +85,6 @@ bool lights_can_sample(const Lights *lights)
 }
 
 // ---- seen from a point
-
-LightChoice lights_choose(const Lights *lights, float u)
-{
-    int low = 0, high = lights->count;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        if (lights->sum[middle] <= u) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    float rest = fminf((u - lights->sum[low]) / lights->share[low], 0.99999994f);
-    return (LightChoice){low, rest, low != lights->dome_index && low != lights->sun_index};
-}
 
 // A position just off a light's surface, on the side of its unit normal, where a shadow ray from
 // about `point` ends before it meets the surface: the offset exceeds the rounding errors of the
@@ -139,60 +125,35 @@ static bool sample_emitters(const Lights *lights, const LightReceiver *receiver,
     return true;
 }
 
+// From a choice made for the receiver, or by powers.
+static bool sample_chosen(const Lights *lights, const LightChoice *choice,
+                          const LightReceiver *receiver, const float u[2], LightSample *sample)
+{
+    bool seen = true;
+    if (!choice->near) {
+        seen = lights_sample_above(lights, choice->index, receiver->position, u, sample);
+    } else if (choice->index == lights->emitters_index) {
+        seen = sample_emitters(lights, receiver, u, choice->rest, sample);
+    } else {
+        seen = lamp_sample(&lights->world->light[choice->index], receiver->position, u, sample);
+    }
+    sample->pdf *= lights->share[choice->index];
+    return seen && sample->pdf > 0.0f;
+}
+
 bool lights_sample(const Lights *lights, const LightReceiver *receiver, const float u[3],
                    LightSample *sample)
 {
     LightChoice choice = lights_choose(lights, u[2]);
-    bool seen = true;
-    if (!choice.near) {
-        seen = lights_sample_above(lights, choice.index, receiver->position, u, sample);
-    } else if (choice.index == lights->emitters_index) {
-        seen = sample_emitters(lights, receiver, u, choice.rest, sample);
-    } else {
-        seen = lamp_sample(&lights->world->light[choice.index], receiver->position, u, sample);
-    }
-    sample->pdf *= lights->share[choice.index];
-    return seen && sample->pdf > 0.0f;
-}
-
-// The stretch of the cumulated shares that dome and sun have, which follow each other in the list.
-static void stretch_above(const Lights *lights, float *low, float *high)
-{
-    int end = lights->emitters_index >= 0 ? lights->emitters_index : lights->count;
-    *low = lights->sum[lights->world->light_count];
-    *high = lights->sum[end];
-}
-
-float lights_mix(const Lights *lights, float near, bool is_near)
-{
-    float low, high;
-    stretch_above(lights, &low, &high);
-    float above = high - low;
-    if (near < 0.0f || !(above > 0.0f) || !(above < 1.0f)) {
-        return 1.0f;
-    }
-    return is_near ? near / (1.0f - above) : (1.0f - near) / above;
+    return sample_chosen(lights, &choice, receiver, u, sample);
 }
 
 bool lights_sample_mixed(const Lights *lights, const LightReceiver *receiver, float near,
                          const float u[3], LightSample *sample)
 {
-    float low, high;
-    stretch_above(lights, &low, &high);
-    float above = high - low;
-    if (near < 0.0f || !(above > 0.0f) || !(above < 1.0f)) {
-        return lights_sample(lights, receiver, u, sample);
-    }
-    float x;
-    if (u[2] < near) {
-        x = u[2] / near * (1.0f - above);
-        x += x < low ? 0.0f : above;
-    } else {
-        x = low + (u[2] - near) / (1.0f - near) * above;
-    }
-    const float v[3] = {u[0], u[1], fminf(x, 0.99999994f)};
-    bool seen = lights_sample(lights, receiver, v, sample);
-    sample->pdf *= lights_mix(lights, near, u[2] < near);
+    LightChoice choice = lights_choose_mixed(lights, receiver, near, u[2]);
+    bool seen = sample_chosen(lights, &choice, receiver, u, sample);
+    sample->pdf *= choice.ratio * lights_mix(lights, near, choice.near);
     return seen && sample->pdf > 0.0f;
 }
 

@@ -39,8 +39,13 @@ bool lights_sample(const Lights *lights, const LightReceiver *receiver, const fl
 // The same with a chance `near` of 0 .. 1 that a lamp or glowing geometry is chosen, and not sky or
 // sun, where the receiver's place tells more than the powers do. NEAR_BY_POWER: lights_sample.
 #define NEAR_BY_POWER (-1.0f)
+// Lamps and glowing geometry are chosen by what they bring to the receiver, and not only by their
+// powers.
 bool lights_sample_mixed(const Lights *lights, const LightReceiver *receiver, float near,
                          const float u[3], LightSample *sample);
+
+// How many times as often this lamp (-1: glowing geometry) is chosen there as by powers.
+float lights_ratio(const Lights *lights, const LightReceiver *receiver, int index);
 
 // How many times as often lights_sample_mixed chooses what is near (or sky and sun) as
 // lights_sample: the density with which a direction was drawn, over this factor, has the weight
@@ -55,11 +60,13 @@ float lights_mean_above(const Lights *lights);
 // A light chosen with a uniform number. near: it can also be sampled from a pivot.
 typedef struct LightChoice {
     int index;
-    float rest; // of the uniform number
-    bool near;  // a lamp or glowing geometry, not sky and sun
+    float rest;  // of the uniform number
+    bool near;   // a lamp or glowing geometry, not sky and sun
+    float ratio; // of the chance to that by powers, which lights_sample_chosen has in its densities
 } LightChoice;
 
-LightChoice lights_choose(const Lights *lights, float u);
+// What is near is chosen by how much of it the medium scatters along the segment.
+LightChoice lights_choose_along(const Lights *lights, const LightSegment *segment, float u);
 
 // A place on the chosen near light, drawn before the point that it lights is known.
 typedef struct LightPivot {
