@@ -59,11 +59,11 @@ static bool add_spine(OutTree *tree, int64_t i, float length, uint64_t key, Erro
     Vec3 out = vec3_madd(vec3_scale(x, c), s, vec3_cross(along, x));
     out = vec3_normalize(
         vec3_madd(out, random_range(random_key(key, STREAM_LEAN), -0.5f, 0.5f), along));
-    length *= random_range(random_key(key, STREAM_LENGTH), 0.55f, 1.4f);
     bool mushroom = random_unit(random_key(key, STREAM_SHAPE)) < MUSHROOMS;
+    length *= random_range(random_key(key, STREAM_LENGTH), 0.55f, mushroom ? 1.1f : 1.4f);
     float neck = (mushroom ? 0.085f : 0.065f) * length;
     float head = random_range(random_key(key, STREAM_HEAD), 0.75f, 1.2f) * length *
-                 (mushroom ? 0.26f : 0.11f);
+                 (mushroom ? 0.32f : 0.13f);
     float girth = tree->radius[parent] + t * (tree->radius[i] - tree->radius[parent]);
     Vec3 foot = vec3_madd(vec3_lerp(from, to, t), 0.8f * girth, out);
     float reach = length + 0.2f * girth;
