@@ -65,13 +65,18 @@ static void as_many_stand_there_as_asked_for(void **state)
 static void tissues_share_their_places(void **state)
 {
     (void)state;
-    World *world = build("kind: blossom, where: ends, share: 1, twig_radius: 0.02");
-    const Part *petals = part_of(world, "blossom"), *stalks = part_of(world, "stalk");
+    World *world =
+        build("kind: blossom, where: ends, share: 1, twig_radius: 0.02, detail: 2, spur: 0.01");
+    const Part *petals = part_of(world, "blossom");
     assert_non_null(petals);
-    assert_non_null(stalks);
-    assert_int_equal(petals->instance_count, stalks->instance_count);
-    assert_memory_equal(petals->instance, stalks->instance,
-                        (size_t)petals->instance_count * sizeof *petals->instance);
+    static const char *const OTHERS[] = {"stalk", "anther", "cone"};
+    for (int i = 0; i < 3; i++) {
+        const Part *other = part_of(world, OTHERS[i]);
+        assert_non_null(other);
+        assert_int_equal(petals->instance_count, other->instance_count);
+        assert_memory_equal(petals->instance, other->instance,
+                            (size_t)petals->instance_count * sizeof *petals->instance);
+    }
     world_free(world);
 }
 
