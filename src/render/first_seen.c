@@ -25,9 +25,9 @@ static bool is_light(const Tracer *tracer, const Hit *hit)
 }
 
 // Does a mirror where a ray met it show a light, by geometry alone? Not if bumps or waves make it
-// one: they spread a light over more than they show of it, before it is shown. *far: m, to the
-// light by way of the mirror.
-static bool mirrors_light(const Tracer *tracer, const Ray *ray, const Hit *hit, float *far)
+// one: they spread a light over more than they show of it, before it is shown. *mirrored: the ray
+// to the light, which ends there.
+static bool mirrors_light(const Tracer *tracer, const Ray *ray, const Hit *hit, Ray *mirrored)
 {
     const float calm = 1.0f - 1e-6f; // cosine
     if (!material_has(material_at(tracer, hit), TRAIT_MIRROR)) {
@@ -41,17 +41,17 @@ static bool mirrors_light(const Tracer *tracer, const Ray *ray, const Hit *hit, 
     if (!bsdf.delta || vec3_dot(bsdf.normal, surface_smooth_normal(&point)) < calm) {
         return false;
     }
-    const float mirrored[3] = {0.0f, 0.0f, 0.0f};
+    const float reflects[3] = {0.0f, 0.0f, 0.0f};
     BsdfSample sample;
-    if (!bsdf_sample(&bsdf, wo, mirrored, &sample) || sample.transmitted) {
+    if (!bsdf_sample(&bsdf, wo, reflects, &sample) || sample.transmitted) {
         return false;
     }
-    Ray on = ray_leaving(&point, sample.wi, ray->key);
+    *mirrored = ray_leaving(&point, sample.wi, ray->key);
     Hit met;
-    if (!accel_intersect(tracer->accel, &on, &met) || !is_light(tracer, &met)) {
+    if (!accel_intersect(tracer->accel, mirrored, &met) || !is_light(tracer, &met)) {
         return false;
     }
-    *far = hit->t + met.t;
+    mirrored->far = met.t;
     return true;
 }
 
@@ -66,16 +66,31 @@ static float sharpness(const CameraFrame *camera, float near)
     return clampf(2.0f - blur, 0.0f, 1.0f);
 }
 
+// 1 where no cloud is before a light, falling to 0 where the cloud hides a third of it: droplets
+// spread it over more than it covers, and which samples pass them is chance.
+static float clearness(const Tracer *tracer, const Ray *ray, float far)
+{
+    if (!tracer->clouds) {
+        return 1.0f;
+    }
+    float distance;
+    CloudRay part = {.origin = ray->origin, .direction = ray->direction, .far = far};
+    return 1.0f - smoothstepf(0.03f, 0.33f, clouds_seen(tracer->clouds, &part, &distance));
+}
+
 void first_seen(const Tracer *tracer, const Ray *ray, bool met, const Hit *hit, PathResult *result)
 {
-    float far = met ? hit->t : INFINITY;
-    if (!met) {
-        result->seen = kind_of_miss(tracer, ray->direction);
-    } else {
-        bool light =
-            tracer->has_glow && (is_light(tracer, hit) || mirrors_light(tracer, ray, hit, &far));
-        result->seen = light ? SEEN_LIGHT : SEEN_SURFACE;
+    Ray mirrored;
+    float far = met ? hit->t : INFINITY, clear = 1.0f;
+    result->seen = met ? SEEN_SURFACE : kind_of_miss(tracer, ray->direction);
+    if (met && tracer->has_glow && is_light(tracer, hit)) {
+        result->seen = SEEN_LIGHT;
+        clear = clearness(tracer, ray, far);
+    } else if (met && tracer->has_glow && mirrors_light(tracer, ray, hit, &mirrored)) {
+        result->seen = SEEN_LIGHT;
+        clear = clearness(tracer, &mirrored, mirrored.far);
+        far += mirrored.far;
     }
     float depth = far * vec3_dot(ray->direction, tracer->camera.forward);
-    result->sharpness = sharpness(&tracer->camera, 1.0f / depth);
+    result->sharpness = clear * sharpness(&tracer->camera, 1.0f / depth);
 }

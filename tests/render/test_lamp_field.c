@@ -242,6 +242,26 @@ static World *lit_sheet(int samples, bool field, bool curve)
     return world;
 }
 
+// Deep in a cloud a lamp has no edge: its samples are not kept apart as those of a light.
+static void a_hidden_lamp_is_not_kept_apart(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        World *world = lit_sheet(16, false, false);
+        if (k == 0) { // below the sheet: the same lamp is
+            world->light[0].center.y = 1400.0f;
+        }
+        Film *film = trace(world, 2, NULL);
+        float most = 0.0f;
+        for (int i = 0; i < film->width * film->height; i++) {
+            most = fmaxf(most, film->light_share[i]);
+        }
+        assert_true(k == 0 ? most > 0.5f : most == 0.0f);
+        film_free(film);
+        world_free(world);
+    }
+}
+
 static void assert_pictures_agree(bool curve)
 {
     World *with = lit_sheet(32, true, curve), *without = lit_sheet(256, false, curve);
@@ -304,6 +324,7 @@ int main(void)
         cmocka_unit_test(emission_has_the_flux_of_the_lights),
         cmocka_unit_test(even_cloud_has_the_fluence_of_transport_theory),
         cmocka_unit_test(a_medium_adds_to_the_extinction_of_the_cloud),
+        cmocka_unit_test(a_hidden_lamp_is_not_kept_apart),
         cmocka_unit_test(a_field_shows_what_paths_find),
         cmocka_unit_test(threads_do_not_change_it),
         cmocka_unit_test(there_is_none_where_it_does_not_pay),
