@@ -181,15 +181,44 @@ static int compare_places(const void *a, const void *b)
     return order != 0 ? order : (p->node < q->node ? -1 : (p->node > q->node));
 }
 
+// All nodes sorted by their places; the caller frees them.
+static Place *sort_places(const OutTree *tree, Error *e)
+{
+    Place *place = memory_alloc(tree->count, sizeof *place, e);
+    for (int64_t i = 0; place && i < tree->count; i++) {
+        place[i] = (Place){tree->position[i], (int32_t)i};
+    }
+    if (place) {
+        qsort(place, (size_t)tree->count, sizeof *place, compare_places);
+    }
+    return place;
+}
+
+bool *out_tree_find_joined(const OutTree *tree, Error *e)
+{
+    bool *joined = memory_alloc_zero(tree->count, sizeof *joined, e);
+    Place *place = joined ? sort_places(tree, e) : NULL;
+    for (int64_t i = 1; place && i < tree->count; i++) {
+        if (compare_positions(place[i].position, place[i - 1].position) == 0) {
+            joined[place[i].node] = joined[place[i - 1].node] = true;
+        }
+    }
+    if (!place) {
+        free(joined);
+        return NULL;
+    }
+    free(place);
+    return joined;
+}
+
 bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, int64_t *loops, Error *e)
 {
     int32_t *piece = memory_alloc(tree->count, sizeof *piece, e);
-    Place *place = memory_alloc(tree->count, sizeof *place, e);
+    Place *place = sort_places(tree, e);
     bool done = piece && place;
     int64_t edges = 0, places = tree->count > 0;
     for (int64_t i = 0; done && i < tree->count; i++) {
         piece[i] = (int32_t)i;
-        place[i] = (Place){tree->position[i], (int32_t)i};
         if (tree->parent[i] >= 0) {
             unite(piece, (int32_t)i, tree->parent[i]);
             edges++;
@@ -197,7 +226,6 @@ bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, int64_t *loops,
     }
     *pieces = 0;
     if (done) {
-        qsort(place, (size_t)tree->count, sizeof *place, compare_places);
         for (int64_t i = 1; i < tree->count; i++) {
             if (compare_positions(place[i].position, place[i - 1].position) == 0) {
                 unite(piece, place[i].node, place[i - 1].node);

@@ -26,6 +26,9 @@ bool out_tree_join_tips(OutTree *tree, const JoinParams *params, int64_t *joins,
 // independent loops (edges - places + components; may be NULL).
 bool out_tree_count_pieces(const OutTree *tree, int64_t *pieces, int64_t *loops, Error *e);
 
+// Which nodes lie at exactly another node's position: tree->count flags, which the caller frees.
+bool *out_tree_find_joined(const OutTree *tree, Error *e);
+
 // Whether the path from a to b along the branches is at least `least` m long; always true between
 // two trees.
 bool out_tree_path_exceeds(const OutTree *tree, int64_t a, int64_t b, float least);

@@ -277,6 +277,9 @@ static const Case scenes[] = {
     {"objects: [{name: a, shape: {envelope: [{shape: half_space}]}}]\n",
      ":1:40: objects.a.shape.envelope: a half_space is unbounded; its op must be difference or "
      "intersection"},
+    {"objects: [{name: a, shape: {envelope: [{shape: sphere, blend: 0.1}]}}]\n",
+     ":1:63: objects.a.shape.envelope: there is no shape before the first to flow into; blend: 0 "
+     "leaves the edge sharp"},
     {"objects: [{name: a, shape: {envelope: [{shape: cone, size: [0, 1, 1]}]}}]\n",
      ":1:60: objects.a.shape.envelope.0.size: radius below and height of a cone must be greater "
      "than 0 m"},

@@ -3,6 +3,7 @@
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "outtree/join.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,43 +16,6 @@ enum { STREAM_SHARE = -1 };                                         // of the ve
 #define CLEARANCE 0.5f // births: from other veins
 
 // ---- stubs ----
-
-typedef struct Place {
-    Vec3 position;
-    int64_t node;
-} Place;
-
-static int compare_places(const void *a, const void *b)
-{
-    const Place *p = a, *q = b;
-    if (p->position.x != q->position.x) {
-        return p->position.x < q->position.x ? -1 : 1;
-    }
-    return (p->position.y > q->position.y) - (p->position.y < q->position.y);
-}
-
-// Which nodes share their place with another: veins meet there.
-static bool *find_joined(const OutTree *tree, Error *e)
-{
-    bool *joined = memory_alloc_zero(tree->count, sizeof *joined, e);
-    Place *place = memory_alloc(tree->count, sizeof *place, e);
-    if (joined && place) {
-        for (int64_t i = 0; i < tree->count; i++) {
-            place[i] = (Place){tree->position[i], i};
-        }
-        qsort(place, (size_t)tree->count, sizeof *place, compare_places);
-        for (int64_t i = 1; i < tree->count; i++) {
-            if (compare_places(&place[i - 1], &place[i]) == 0) {
-                joined[place[i - 1].node] = joined[place[i].node] = true;
-            }
-        }
-        free(place);
-        return joined;
-    }
-    free(joined);
-    free(place);
-    return NULL;
-}
 
 static int32_t *count_children(const OutTree *tree, Error *e)
 {
@@ -83,7 +47,8 @@ static int64_t stub_start(const OutTree *tree, const int32_t *children, const bo
 
 static bool trim_once(OutTree *tree, float length, int64_t *trimmed, Error *e)
 {
-    bool *joined = find_joined(tree, e), *keep = memory_alloc(tree->count, sizeof *keep, e);
+    bool *joined = out_tree_find_joined(tree, e),
+         *keep = memory_alloc(tree->count, sizeof *keep, e);
     int32_t *children = count_children(tree, e);
     bool done = joined && keep && children;
     *trimmed = 0;

@@ -2,6 +2,7 @@
 
 #include "base/exact_math.h"
 #include "base/memory.h"
+#include "outtree/join.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,50 +42,13 @@ static void course_free(Course *course)
     free(course->fixed);
 }
 
-typedef struct Place {
-    Vec3 position;
-    int64_t node;
-} Place;
-
-static int compare_places(const void *a, const void *b)
-{
-    const Place *p = a, *q = b;
-    const float d[3] = {p->position.x - q->position.x, p->position.y - q->position.y,
-                        p->position.z - q->position.z};
-    for (int i = 0; i < 3; i++) {
-        if (d[i] != 0.0f) {
-            return d[i] < 0.0f ? -1 : 1;
-        }
-    }
-    return (p->node > q->node) - (p->node < q->node);
-}
-
-static bool fix_joins(const OutTree *tree, Course *course, Error *e)
-{
-    Place *place = memory_alloc(tree->count, sizeof *place, e);
-    if (!place) {
-        return false;
-    }
-    for (int64_t i = 0; i < tree->count; i++) {
-        place[i] = (Place){tree->position[i], i};
-    }
-    qsort(place, (size_t)tree->count, sizeof *place, compare_places);
-    for (int64_t i = 1; i < tree->count; i++) {
-        if (vec3_distance(place[i - 1].position, place[i].position) == 0.0f) {
-            course->fixed[place[i - 1].node] = course->fixed[place[i].node] = true;
-        }
-    }
-    free(place);
-    return true;
-}
-
 static bool course_init(Course *course, const OutTree *tree, Error *e)
 {
     int64_t n = tree->count;
     course->position = memory_alloc(n, sizeof *course->position, e);
     course->next = memory_alloc(n, sizeof *course->next, e);
     course->main = memory_alloc(n, sizeof *course->main, e);
-    course->fixed = memory_alloc_zero(n, sizeof *course->fixed, e);
+    course->fixed = out_tree_find_joined(tree, e);
     if (!course->position || !course->next || !course->main || !course->fixed) {
         return false;
     }
@@ -97,7 +61,7 @@ static bool course_init(Course *course, const OutTree *tree, Error *e)
             course->main[parent] = (int32_t)i;
         }
     }
-    return fix_joins(tree, course, e);
+    return true;
 }
 
 // Moves every node half-way to the middle of its neighbours along the thickest way.
