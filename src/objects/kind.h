@@ -184,7 +184,7 @@ typedef struct Kind {
 
 #define ANTHER_MATERIAL_ROW(INDEX)         \
     MATERIAL_ROW(INDEX, "anther_material", \
-                 "Material of a blossom's anthers, at an organ's detail 2; default: anther.")
+                 "Material of a blossom's anthers, at an organ's detail 2; default: tree/anther.")
 
 #define SNOW_MATERIAL_ROW(INDEX) \
     MATERIAL_ROW(INDEX, "snow_material", "Material of settled snow; default: snow.")

@@ -69,7 +69,7 @@ static void tissues_share_their_places(void **state)
         build("kind: blossom, where: ends, share: 1, twig_radius: 0.02, detail: 2, spur: 0.01");
     const Part *petals = part_of(world, "blossom");
     assert_non_null(petals);
-    static const char *const OTHERS[] = {"stalk", "anther", "cone"};
+    static const char *const OTHERS[] = {"stalk", "tree/anther", "cone"};
     for (int i = 0; i < 3; i++) {
         const Part *other = part_of(world, OTHERS[i]);
         assert_non_null(other);

@@ -58,7 +58,7 @@ const Kind kind_climber = {
     .variant = {KIND_ROW("climber", &climber_table,
                          "A climbing plant on another object, such as ivy on a wall."),
                 MATERIALS},
-    .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk", "anther"},
+    .materials = {"bark", "twig", "leaf", "blossom", "fruit", "cone", "stalk", "tree/anther"},
     .over = over,
     .over_key = "climbs",
     .keeps_clear = true,

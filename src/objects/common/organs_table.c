@@ -207,8 +207,8 @@ static void organ_defaults(const Node *given, int kind, void *out)
 const Table organ_table = {
     .name = "organ",
     .doc = "Blossom, fruit, cones and other organs on the branches. Materials: blossom, fruit, "
-           "cone (scales, cups, buds, spines), stalk (also sepals and stamens); wings are of the "
-           "leaves' material.",
+           "cone (scales, cups, buds, spines, short shoots), stalk (also sepals and stamens), "
+           "tree/anther; wings are of the leaves' material.",
     .example = "objects:\n"
                "  - name: cherry\n"
                "    tree:\n"

@@ -55,7 +55,7 @@ const char *tree_mix_material(const TreeShare *mix, int count, int i)
         [TREE_BLOSSOM] = "blossom",     [TREE_FRUIT] = "fruit", [TREE_CONE] = "cone",
         [TREE_STALK] = "stalk",         [TREE_SNOW] = "snow",   [TREE_DEADWOOD] = "deadwood",
         [TREE_MISTLETOE] = "mistletoe", [TREE_MOSS] = "moss",   [TREE_RIME] = "rime",
-        [TREE_ANTHER] = "anther"};
+        [TREE_ANTHER] = "tree/anther"};
     if (i >= count * TREE_ROLES) {
         return NULL;
     }
