@@ -62,8 +62,8 @@ typedef struct Path {
     int cloud_order;    // how far the phase function of droplets has widened: scatterings by them
     bool in_cloud;      // scattered by a droplet since the last surface
     bool lamps_known;   // the light of lamps, up to the next surface, has been added
-    float near;         // chance of a lamp among the lights sampled where the ray's direction was
-    bool weighed;       // there near lights were weighed by place
+    bool weighed;       // near lights were weighed by place where the ray's direction was sampled
+    float near;         // chance of a lamp among the lights sampled there
     bool mirrored;      // only mirror reflections since the camera
     bool guided;        // no chance has decided what a denoiser's guides show
     bool gathers;       // left a point, not of open water, where light was gathered through it
