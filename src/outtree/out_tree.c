@@ -174,6 +174,17 @@ int32_t out_tree_last_birth(const OutTree *tree)
     return last;
 }
 
+int32_t *out_tree_count_children(const OutTree *tree, Error *e)
+{
+    int32_t *children = memory_alloc_zero(tree->count, sizeof *children, e);
+    for (int64_t i = 0; children && i < tree->count; i++) {
+        if (tree->parent[i] >= 0) {
+            children[tree->parent[i]]++;
+        }
+    }
+    return children;
+}
+
 bool out_tree_keep_births(OutTree *tree, float share, Error *e)
 {
     if (share >= 1.0f) {

@@ -55,6 +55,9 @@ bool out_tree_append(OutTree *tree, const OutTree *other, Error *e);
 // The latest birth; 0 when there are no nodes.
 int32_t out_tree_last_birth(const OutTree *tree);
 
+// Number of children of each node: tree->count numbers, which the caller frees.
+int32_t *out_tree_count_children(const OutTree *tree, Error *e);
+
 // Reduces a tree with radii to `share` (0..1) of its growth: removes the younger nodes as
 // out_tree_keep_births does and thins the others by age, from tip_radius (m) at birth to the final
 // radius, fast at first, so that branches neither pop up nor stay thin for long. Radii keep their

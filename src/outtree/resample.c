@@ -13,16 +13,6 @@ typedef struct Resampler {
     int32_t *place;    // new index of each kept old node
 } Resampler;
 
-static void count_children(const OutTree *tree, int32_t *children)
-{
-    for (int64_t i = 0; i < tree->count; i++) {
-        children[i] = 0;
-        if (tree->parent[i] >= 0) {
-            children[tree->parent[i]]++;
-        }
-    }
-}
-
 static bool stays(const Resampler *r, int32_t node)
 {
     return r->tree->parent[node] < 0 || r->children[node] != 1;
@@ -113,12 +103,9 @@ OutTree *out_tree_resample(const OutTree *tree, float segment, Error *e)
     }
     Resampler r = {.tree = tree, .segment = segment, .out = out_tree_new(e)};
     ChainSet *chains = out_tree_chains(tree, e);
-    r.children = memory_alloc(tree->count, sizeof *r.children, e);
+    r.children = out_tree_count_children(tree, e);
     r.place = memory_alloc(tree->count, sizeof *r.place, e);
     bool done = r.out && chains && r.children && r.place;
-    if (done) {
-        count_children(tree, r.children);
-    }
     for (int64_t c = 0; done && c < chains->count; c++) {
         done = resample_chain(&r, chains->node + chains->first[c],
                               chains->first[c + 1] - chains->first[c], chains->parent[c] < 0, e);

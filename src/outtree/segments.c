@@ -4,15 +4,6 @@
 
 #include <stdlib.h>
 
-static void count_children(const OutTree *tree, int32_t *children)
-{
-    for (int64_t i = 0; i < tree->count; i++) {
-        if (tree->parent[i] >= 0) {
-            children[tree->parent[i]]++;
-        }
-    }
-}
-
 static void add_piece(SegmentList *list, const OutTree *tree, const int32_t *children, int64_t node)
 {
     int32_t parent = tree->parent[node], above = list->of_node[parent];
@@ -52,10 +43,9 @@ bool segments_init(SegmentList *list, const OutTree *tree, Error *e)
 {
     *list = (SegmentList){.segment = memory_alloc(tree->count, sizeof *list->segment, e),
                           .of_node = memory_alloc(tree->count, sizeof *list->of_node, e)};
-    int32_t *children = memory_alloc_zero(tree->count, sizeof *children, e);
+    int32_t *children = out_tree_count_children(tree, e);
     bool done = list->segment && list->of_node && children;
     if (done) {
-        count_children(tree, children);
         find_segments(list, tree, children);
     } else {
         segments_free(list);

@@ -17,17 +17,6 @@ enum { STREAM_SHARE = -1 };                                         // of the ve
 
 // ---- stubs ----
 
-static int32_t *count_children(const OutTree *tree, Error *e)
-{
-    int32_t *children = memory_alloc_zero(tree->count, sizeof *children, e);
-    for (int64_t i = 0; children && i < tree->count; i++) {
-        if (tree->parent[i] >= 0) {
-            children[tree->parent[i]]++;
-        }
-    }
-    return children;
-}
-
 // The first node of the free end with this tip, if it is shorter than `length`; else -1.
 static int64_t stub_start(const OutTree *tree, const int32_t *children, const bool *joined,
                           int64_t tip, float length)
@@ -49,7 +38,7 @@ static bool trim_once(OutTree *tree, float length, int64_t *trimmed, Error *e)
 {
     bool *joined = out_tree_find_joined(tree, e),
          *keep = memory_alloc(tree->count, sizeof *keep, e);
-    int32_t *children = count_children(tree, e);
+    int32_t *children = out_tree_count_children(tree, e);
     bool done = joined && keep && children;
     *trimmed = 0;
     for (int64_t i = 0; done && i < tree->count; i++) {
@@ -220,7 +209,7 @@ static void occupy_rest(const Veinlets *v, float share)
 static bool try_all(Veinlets *v, const Run *run, Error *e)
 {
     int64_t count;
-    int32_t *children = count_children(v->tree, e);
+    int32_t *children = out_tree_count_children(v->tree, e);
     Candidate *candidate = children ? make_candidates(v->tree, &count, e) : NULL;
     bool done = candidate;
     for (int64_t i = 0; done && i < count; i++) {

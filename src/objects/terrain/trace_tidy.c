@@ -5,17 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int32_t *count_children(const OutTree *tree, Error *e)
-{
-    int32_t *children = memory_alloc_zero(tree->count, sizeof *children, e);
-    for (int64_t i = 0; children && i < tree->count; i++) {
-        if (tree->parent[i] >= 0) {
-            children[tree->parent[i]]++;
-        }
-    }
-    return children;
-}
-
 // Drops side branches that end within the width of their line: thinning leaves them at steps and
 // corners of the paint's edge.
 static bool drop_spurs(OutTree *tree, Error *e)
@@ -136,7 +125,7 @@ static void set_widths(OutTree *tree, const Widths *w)
 // it has farther out, and the fork gets the largest of these.
 static bool narrow_forks(OutTree *tree, Error *e)
 {
-    Widths w = {.children = count_children(tree, e)};
+    Widths w = {.children = out_tree_count_children(tree, e)};
     w.within = memory_alloc(tree->count, sizeof *w.within, e);
     w.up = memory_alloc(tree->count, sizeof *w.up, e);
     w.down = memory_alloc(tree->count, sizeof *w.down, e);
@@ -158,7 +147,7 @@ static bool narrow_forks(OutTree *tree, Error *e)
 static bool smooth(OutTree *tree, Error *e)
 {
     enum { TIMES = 12 };
-    int32_t *children = count_children(tree, e);
+    int32_t *children = out_tree_count_children(tree, e);
     int32_t *child = memory_alloc(tree->count, sizeof *child, e);
     Vec3 *moved = memory_alloc(tree->count, sizeof *moved, e);
     float *width = memory_alloc(tree->count, sizeof *width, e);
