@@ -81,7 +81,9 @@ static const Key ORGAN_KEYS[] = {
     {KEY_OF(OrganGroup, variants, "variants", KEY_INT), .low = 1, .high = 1000,
      .doc = "Number of different clusters."},
     {KEY_OF(OrganGroup, detail, "detail", KEY_INT), .low = 1, .high = 2,
-     .doc = "Detail of the meshes: 1 for whole trees, 2 for close-ups."},
+     .doc = "Detail of the meshes: 1 for whole trees, 2 for close-ups; blossoms of 2 are hollow "
+            "cups, which "
+            "suit few petals."},
     {0},
 };
 
