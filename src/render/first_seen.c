@@ -18,7 +18,7 @@ static const Material *material_at(const Tracer *tracer, const Hit *hit)
     return &world->material[world->geometry.part[accel_place(tracer->accel, hit).part].material];
 }
 
-static bool is_light(const Tracer *tracer, const Hit *hit)
+bool hit_glows(const Tracer *tracer, const Hit *hit)
 {
     return accel_light(tracer->accel, hit) >= 0 ||
            material_has(material_at(tracer, hit), TRAIT_EMISSIVE);
@@ -48,7 +48,7 @@ static bool mirrors_light(const Tracer *tracer, const Ray *ray, const Hit *hit, 
     }
     *mirrored = ray_leaving(&point, sample.wi, ray->key);
     Hit met;
-    if (!accel_intersect(tracer->accel, mirrored, &met) || !is_light(tracer, &met)) {
+    if (!accel_intersect(tracer->accel, mirrored, &met) || !hit_glows(tracer, &met)) {
         return false;
     }
     mirrored->far = met.t;
@@ -66,8 +66,8 @@ static float sharpness(const CameraFrame *camera, float near)
     return clampf(2.0f - blur, 0.0f, 1.0f);
 }
 
-// 1 where no cloud is before a light, falling to 0 where the cloud hides a third of it: droplets
-// spread it over more than it covers, and which samples pass them is chance.
+// 1 where clouds hide up to four fifths of a light, falling to 0 where they leave a fiftieth: what
+// droplets have spread over more than the light covers is then no less than what they let through.
 static float clearness(const Tracer *tracer, const Ray *ray, float far)
 {
     if (!tracer->clouds) {
@@ -75,7 +75,7 @@ static float clearness(const Tracer *tracer, const Ray *ray, float far)
     }
     float distance;
     CloudRay part = {.origin = ray->origin, .direction = ray->direction, .far = far};
-    return 1.0f - smoothstepf(0.03f, 0.33f, clouds_seen(tracer->clouds, &part, &distance));
+    return 1.0f - smoothstepf(0.8f, 0.98f, clouds_seen(tracer->clouds, &part, &distance));
 }
 
 void first_seen(const Tracer *tracer, const Ray *ray, bool met, const Hit *hit, PathResult *result)
@@ -83,7 +83,7 @@ void first_seen(const Tracer *tracer, const Ray *ray, bool met, const Hit *hit, 
     Ray mirrored;
     float far = met ? hit->t : INFINITY, clear = 1.0f;
     result->seen = met ? SEEN_SURFACE : kind_of_miss(tracer, ray->direction);
-    if (met && tracer->has_glow && is_light(tracer, hit)) {
+    if (met && tracer->has_glow && hit_glows(tracer, hit)) {
         result->seen = SEEN_LIGHT;
         clear = clearness(tracer, ray, far);
     } else if (met && tracer->has_glow && mirrors_light(tracer, ray, hit, &mirrored)) {

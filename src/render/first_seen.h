@@ -11,4 +11,7 @@
 // place must be of one kind.
 void first_seen(const Tracer *tracer, const Ray *ray, bool met, const Hit *hit, PathResult *result);
 
+// Is it a lamp or a surface that glows?
+bool hit_glows(const Tracer *tracer, const Hit *hit);
+
 #endif

@@ -191,6 +191,9 @@ static Whereabouts travel(Path *path, const Hit *hit, bool met)
     if (met && path->straight && (path->media.now.scatters || path->tracer->clouds)) {
         path_note_behind(path, hit);
     }
+    if (met) {
+        path_show_light(path, hit);
+    }
     float far = met ? hit->t : INFINITY, cloud = path_meet_cloud(path, far);
     if (path->media.now.present) {
         Travel travel = path_travel(path, fminf(far, cloud));

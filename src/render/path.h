@@ -62,6 +62,7 @@ typedef struct Path {
     int cloud_order;    // how far the phase function of droplets has widened: scatterings by them
     bool in_cloud;      // scattered by a droplet since the last surface
     bool lamps_known;   // the light of lamps, up to the next surface, has been added
+    bool shown;         // that of the lamp or glowing surface that the ray meets has been added
     bool weighed;       // near lights were weighed by place where the ray's direction was sampled
     float near;         // chance of a lamp among the lights sampled there
     bool mirrored;      // only mirror reflections since the camera
@@ -132,6 +133,9 @@ bool media_line(const Media *media, const Tracer *tracer, const Ray *ray, float 
 // Redirects a shadow ray from its origin to the end point of the light sample.
 void path_aim(Ray *ray, const LightSample *light);
 
+// Dims a share of light by the medium along a ray up to `far`.
+void media_dim(const Media *media, const Tracer *tracer, const Ray *ray, float far, Vec3 *share);
+
 // The same as path_cast_shadow for a ray that starts inside media, which dim the light. Where there
 // are index-matched interfaces, the ray is traced at once.
 void path_cast_shadow_through(Path *path, const Ray *ray, const LightSample *light,
@@ -151,6 +155,13 @@ Arrival path_arrive(Vertex *vertex);
 // and come back in the picture as specks.
 void path_note_behind(Path *path, const Hit *hit);
 
+// Adds the light that comes unscattered from the lamp or glowing surface that the path's ray meets,
+// through the medium, clouds, rain and air before it, and notes that it is known. Only for camera
+// rays and mirror reflections of them that something may scatter on the way: whether the path gets
+// there is chance, and what glows is so much brighter than the scattered light around it that this
+// chance would be seen.
+void path_show_light(Path *path, const Hit *hit);
+
 // Next-event estimation: samples a light and queues its shadow ray. u: of SET_LIGHT.
 void path_sample_light(Vertex *vertex, const float u[4]);
 
@@ -163,6 +174,9 @@ bool path_bounce(Vertex *vertex, const float u[4]);
 // all but 1 / e of it after haze_length m (0 = none). Only for camera rays and mirror reflections
 // of them: in diffuse light the difference does not show.
 void path_see_through_air(Path *path, float distance, float haze_length);
+
+// The share of the light from there that air and haze let through.
+Vec3 path_air_clear(const Path *path, float distance, float haze_length);
 
 // ---- path_rain.c
 
@@ -184,6 +198,9 @@ Travel path_travel(Path *path, float far);
 
 // An estimate of the share of light that clouds let pass along a shadow ray of the path.
 float path_pass_clouds(Path *path, const Ray *ray);
+
+// The same for what is seen along the path's ray up to `far`, with less spread.
+float path_clouds_clear(Path *path, float far);
 
 // Draws the distance at which a droplet scatters the path's ray; INFINITY if none does.
 float path_meet_cloud(Path *path, float far);

@@ -35,6 +35,18 @@ static void add_air(Path *path, float distance)
     path->throughput = vec3_mul(path->throughput, view.clear);
 }
 
+Vec3 path_air_clear(const Path *path, float distance, float haze_length)
+{
+    const Tracer *tracer = path->tracer;
+    bool aerial = tracer->world->sky.aerial_perspective > 0.0f && path->media.count == 0;
+    float clear = haze_length > 0.0f ? expf(-distance / haze_length) : 1.0f;
+    AirView view;
+    return aerial && lights_air(tracer->lights, path->ray.origin, path->ray.direction, distance,
+                                0.5f, &view)
+               ? vec3_scale(view.clear, clear)
+               : vec3_splat(clear);
+}
+
 void path_see_through_air(Path *path, float distance, float haze_length)
 {
     if (!path->mirrored) {

@@ -50,6 +50,17 @@ float path_pass_clouds(Path *path, const Ray *ray)
                        &path->cloud_key);
 }
 
+float path_clouds_clear(Path *path, float far)
+{
+    const CloudSet *clouds = path->tracer->clouds;
+    if (!clouds || path->media.count > 0) {
+        return 1.0f;
+    }
+    CloudRay part = {path->ray.origin, path->ray.direction, far, path->cloud_order >= ORDERS};
+    return clouds_clear(clouds, &part, extinction_scale(path->tracer, path->cloud_order),
+                        &path->cloud_key);
+}
+
 // The share of the light in a cloud that comes from lamps, by the field. 0 beyond it.
 static float lit_by_lamps(const Tracer *tracer, Vec3 p)
 {

@@ -79,7 +79,7 @@ bool media_line(const Media *media, const Tracer *tracer, const Ray *ray, float 
     return line->count > 0;
 }
 
-static void lose(const Media *media, const Tracer *tracer, const Ray *ray, float far, Vec3 *share)
+void media_dim(const Media *media, const Tracer *tracer, const Ray *ray, float far, Vec3 *share)
 {
     MediumLine line;
     if (media_line(media, tracer, ray, far, &line)) {
@@ -110,7 +110,7 @@ static bool passes_bodies(Path *path, Ray ray, const LightSample *light, Media m
         Hit hit;
         path->rays++;
         bool met = accel_intersect(tracer->accel, &ray, &hit);
-        lose(&media, tracer, &ray, met ? hit.t : ray.far, share);
+        media_dim(&media, tracer, &ray, met ? hit.t : ray.far, share);
         if (!met) {
             return true;
         }
@@ -148,7 +148,7 @@ void path_cast_shadow_through(Path *path, const Ray *ray, const LightSample *lig
         return;
     }
     if (!path->tracer->has_passable) {
-        lose(media, path->tracer, ray, ray->far, &share);
+        media_dim(media, path->tracer, ray, ray->far, &share);
         path_cast_shadow(path, ray, vec3_mul(radiance, share));
     } else if (passes_bodies(path, *ray, light, *media, &share)) {
         path->depth++; // the light is one bounce further

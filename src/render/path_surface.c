@@ -1,4 +1,5 @@
 // A path at a surface: what the surface adds to it, and the ray that leaves it.
+#include "render/first_seen.h"
 #include "render/path.h"
 
 #include <stddef.h>
@@ -83,6 +84,54 @@ static float pdf_against(const Path *path, int lamp)
     return path->bsdf_pdf / (ratio * lights_mix(lights, path->near, true));
 }
 
+// Radiance of the lamp that the path's ray meets.
+static Vec3 lamp_radiance(const Path *path, int lamp, const Hit *hit)
+{
+    return lights_emitted(path->tracer->lights, lamp, path->start, path->ray.direction,
+                          path->travelled + hit->t, pdf_against(path, lamp));
+}
+
+// Radiance of the glowing surface that the path's ray meets.
+static Vec3 surface_radiance(const Path *path, const Hit *hit, const SurfacePoint *point,
+                             const Bsdf *bsdf)
+{
+    SurfacePlace place = accel_place(path->tracer->accel, hit);
+    float glow = lights_glow(path->tracer->lights, &place, point->position, &path->from,
+                             pdf_against(path, -1));
+    return vec3_scale(bsdf->emission, glow);
+}
+
+// The same of either. 0 if it does not glow.
+static Vec3 radiance_met(const Path *path, const Hit *hit)
+{
+    const Tracer *tracer = path->tracer;
+    int lamp = accel_light(tracer->accel, hit);
+    if (lamp >= 0) {
+        return lamp_radiance(path, lamp, hit);
+    }
+    SurfacePoint point;
+    accel_surface(tracer->accel, &path->ray, hit, &point);
+    point.footprint = path->footprint + path->spread * hit->t;
+    Bsdf bsdf;
+    bsdf_fill(tracer->materials, &point, vec3_neg(path->ray.direction), &bsdf);
+    return bsdf_is_emissive(&bsdf) ? surface_radiance(path, hit, &point, &bsdf) : vec3_splat(0.0f);
+}
+
+void path_show_light(Path *path, const Hit *hit)
+{
+    const Tracer *tracer = path->tracer;
+    path->shown = path->mirrored && tracer->has_glow &&
+                  (path->media.now.scatters || tracer->clouds) && hit_glows(tracer, hit);
+    if (!path->shown) {
+        return;
+    }
+    Vec3 share = path_air_clear(path, hit->t, tracer->world->sky.haze_distance);
+    media_dim(&path->media, tracer, &path->ray, hit->t, &share);
+    float clear = path->media.count > 0 ? 1.0f : path_rain_clear(tracer, &path->ray, hit->t);
+    share = vec3_scale(share, clear * path_clouds_clear(path, hit->t));
+    path_add_light(path, vec3_mul(share, radiance_met(path, hit)));
+}
+
 // Fills the vertex's BSDF. False where the path ends: on what glows, at its greatest depth, by
 // roulette.
 static bool shade(Vertex *vertex)
@@ -100,16 +149,12 @@ static bool shade(Vertex *vertex)
     } else if (path->mirrored && path->guided) {
         note_mirrored(path, bsdf);
     }
-    bool known = path->lamps_known;
+    bool known = path->lamps_known || path->shown;
     path->lamps_known = false;
     if (bsdf_is_emissive(bsdf)) {
-        if (known) {
-            return false;
+        if (!known) {
+            path_add_light(path, surface_radiance(path, &vertex->hit, point, bsdf));
         }
-        SurfacePlace place = accel_place(tracer->accel, &vertex->hit);
-        float glow = lights_glow(tracer->lights, &place, point->position, &path->from,
-                                 pdf_against(path, -1));
-        path_add_light(path, vec3_scale(bsdf->emission, glow));
         return false;
     }
     if (path->depth >= tracer->world->render.max_depth || !path_survives(path)) {
@@ -138,11 +183,9 @@ Arrival path_arrive(Vertex *vertex)
     path_see_through_air(path, hit->t, tracer->world->sky.haze_distance);
     int light = accel_light(tracer->accel, hit);
     if (light >= 0) {
-        if (path->lamps_known) {
-            return ARRIVAL_ENDED;
+        if (!path->lamps_known && !path->shown) {
+            path_add_light(path, lamp_radiance(path, light, hit));
         }
-        path_add_light(path, lights_emitted(tracer->lights, light, path->start, path->ray.direction,
-                                            path->travelled + hit->t, pdf_against(path, light)));
         return ARRIVAL_ENDED;
     }
     path->travelled += hit->t;

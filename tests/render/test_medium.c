@@ -143,6 +143,55 @@ static void light_fades_by_beer_lambert(void **state)
     }
 }
 
+// A surface or a lamp of radiance 2 that fills the picture, 8 m away in a medium that scatters; or
+// as far behind the camera, which looks into a mirror 0.1 m away.
+static World *glow_in_fog(bool lamp, bool mirrored)
+{
+    World *world = tiny_world(4, 4, 16, 0.5f);
+    world->camera.fov = 0.01f;
+    world->medium = everywhere(0.3f, 0.1f, 0.2f, 100.0f);
+    world->render.max_depth = mirrored ? 1 : 0; // no scattering
+    world->material[0] = glowing(2.0f);
+    Vec3 corner = vec3(-9, -9, -3), u = vec3(18, 0, 0), v = vec3(0, 18, 0);
+    if (mirrored) {
+        world->material[1] = material_default(MATERIAL_CONDUCTOR);
+        world->material[1].color = vec3_splat(1.0f);
+        world->material[1].roughness = 0.0f;
+        world->material_count = 2;
+        add_mesh(world, quad_mesh(vec3(-9, -9, 4.9f), u, v), 1, 1);
+        corner = vec3(9, -9, 12.8f);
+        u = vec3_neg(u);
+    }
+    if (lamp) {
+        add_light(world, (Light){.kind = LIGHT_QUAD,
+                                 .corner = corner,
+                                 .edge_u = u,
+                                 .edge_v = v,
+                                 .radiance = vec3_splat(2.0f)});
+    } else {
+        add_mesh(world, quad_mesh(corner, u, v), 0, 0);
+    }
+    return world;
+}
+
+// Every sample sees it dimmed by exp(-depth), as far as it gets to the mirror.
+static void what_glows_shines_through_without_chance(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        bool lamp = k & 1, mirrored = k & 2;
+        World *world = glow_in_fog(lamp, mirrored);
+        Film *film = trace(world, 1, NULL);
+        double wanted = 2.0 * exp(-0.4 * 8.0);
+        ASSERT_NEAR(mean_luminance(film), wanted, (mirrored ? 0.05 : 1e-3) * wanted);
+        for (int i = 0; i < 16 && !mirrored; i++) {
+            ASSERT_NEAR(luminance(film->color[i]), wanted, 1e-3 * wanted);
+        }
+        film_free(film);
+        world_free(world);
+    }
+}
+
 // Light of a ball of radiance 100 and radius 0.05, scattered once into a ray that passes it at 0.5
 // m.
 static double single_scattering(double scattering, double absorption, float g)
@@ -368,6 +417,7 @@ int main(void)
         cmocka_unit_test(drawn_lengths_have_their_density),
         cmocka_unit_test(phase_function_is_drawn_as_it_is),
         cmocka_unit_test(light_fades_by_beer_lambert),
+        cmocka_unit_test(what_glows_shines_through_without_chance),
         cmocka_unit_test(single_scattering_equals_the_integral),
         cmocka_unit_test(a_channel_glows_in_fog),
         cmocka_unit_test(weak_lamps_far_away_add_no_noise),

@@ -147,6 +147,61 @@ static float pass(const CloudGrid *grid, const CloudRay *ray, float scale, uint6
     return share;
 }
 
+// An estimate of the optical depth: what a cell has at least is exact, the rest is looked up at a
+// random place of each step. `most` and beyond is as good as infinite.
+static float estimate_depth(const CloudGrid *grid, const CloudRay *ray, float scale, float most,
+                            uint64_t *key)
+{
+    const float finest = 0.125f; // depth of a step
+    Walk walk;
+    if (!walk_begin(&walk, grid, ray, false)) {
+        return 0.0f;
+    }
+    float depth = 0.0f;
+    do {
+        float length = scale * (walk.far - walk.near), rest = walk.most - walk.least;
+        int steps = rest > 0.0f ? 1 + (int)fminf(length * rest / finest, most / finest) : 0;
+        depth += length * walk.least;
+        for (int k = 0; k < steps; k++) {
+            float at = lerpf(walk.near, walk.far, ((float)k + draw(key)) / (float)steps);
+            Vec3 p = vec3_madd(ray->origin, at, ray->direction);
+            float more = cloud_grid_extinction(grid, p, !ray->blurred) - walk.least;
+            depth += length / (float)steps * clampf(more, 0.0f, rest);
+        }
+    } while (depth < most && walk_on(&walk));
+    return depth;
+}
+
+static float estimate_depths(const CloudSet *clouds, const CloudRay *ray, float scale, float most,
+                             uint64_t *key)
+{
+    float depth = 0.0f;
+    for (int i = 0; i < clouds->count && depth < most; i++) {
+        depth += estimate_depth(&clouds->grid[i], ray, scale, most - depth, key);
+    }
+    return depth;
+}
+
+// With independent estimates of the depth D: exp(-D) = exp(-p) sum over k of (p - D)^k / k!, where
+// p is one of them and each power takes others; roulette ends the sum (Kettunen et al., "An
+// Unbiased Ray-Marching Transmittance Estimator", SIGGRAPH 2021).
+float clouds_clear(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key)
+{
+    enum { CERTAIN = 2 };
+    const float most = 40.0f, survival = 0.5f;
+    float pivot = estimate_depths(clouds, ray, scale, most, key);
+    if (pivot <= 0.0f || pivot >= most) {
+        return pivot <= 0.0f ? 1.0f : 0.0f;
+    }
+    float sum = 1.0f, term = 1.0f;
+    for (int k = 1; term != 0.0f && (k <= CERTAIN || draw(key) < survival); k++) {
+        float depth = estimate_depths(clouds, ray, scale, most, key);
+        term *= (pivot - depth) / ((float)k * (k <= CERTAIN ? 1.0f : survival));
+        sum += term;
+    }
+    return expf(-pivot) * sum;
+}
+
 float clouds_collide(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key)
 {
     CloudRay rest = *ray;
