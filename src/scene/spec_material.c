@@ -25,6 +25,7 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"ground", PATTERN_GROUND},
                                     {"stone", PATTERN_STONE},
                                     {"masonry", PATTERN_MASONRY},
+                                    {"dressed", PATTERN_DRESSED},
                                     {"leaf", PATTERN_LEAF},
                                     {"noise", PATTERN_NOISE},
                                     {"corallite", PATTERN_CORALLITE},
@@ -155,7 +156,8 @@ static const Key MATERIAL_KEYS[] = {
      .doc =
          "Procedural pattern of color and color2, with bumps. bark: ridges and furrows; ground: "
          "soil and grass in patches; stone: broken faces, joints, minerals and stains; masonry: "
-         "a wall of stones in courses; leaf: "
+         "a wall of weathered stones in courses as high as pattern_scale; dressed: the same stone "
+         "without joints, for arches, sills and fallen blocks; leaf: "
          "veins and blotches; noise: plain noise; corallite: "
          "cups of a coral; brain: winding ridges of a brain coral, color2 in the valleys; youth: "
          "color2 where a branch still grows; sand: ripples of a sea "
@@ -204,17 +206,18 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, displacement, "displacement", KEY_ENUM), .kinds = PATTERNED,
      .names = DISPLACEMENTS,
      .doc = "Is the relief true geometry near the camera? auto: of barks, stone, "
-            "masonry and "
+            "masonry, dressed stone and "
             "displacement_texture; on: of the patterns noise, strata, mountain, alps, coast and "
             "karst, too; off: bumps everywhere. Meshes that "
             "are drawn once are diced to about 1.5 pixels (5 x render.detail) where the camera "
             "sees the relief; copies of an object keep bumps."},
     {KEY_OF(Material, moss, "moss", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc = "Patterns bark, stone and masonry: how much moss grows on it: at the foot, on sides "
+     .doc = "Patterns bark, stone, masonry and dressed: how much moss grows on it: at the foot, on "
+            "sides "
             "that face up "
             "or north (-z), in furrows and joints first."},
     {KEY_OF(Material, lichen, "lichen", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc = "Patterns bark, stone and masonry: how much lichen grows on it."},
+     .doc = "Patterns bark, stone, masonry and dressed: how much lichen grows on it."},
     {KEY_OF(Material, scars, "scars", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern bark: how many knots and scars of shed limbs it has."},
     {KEY_OF(Material, ribs, "ribs", KEY_FLOAT), .kinds = PATTERNED, .high = 1,

@@ -155,6 +155,37 @@ static void leaves_are_smaller_toward_the_base(void **state)
     geometry_clear(&tapered);
 }
 
+// Young leaves are at the end, the younger the nearer and the smaller; places stay, and so do
+// leaves of needles, whose mesh has its ages.
+static void the_tip_is_this_years(void **state)
+{
+    (void)state;
+    const Vec3 along = {1, 0, 0};
+    LeavesParams leaves = plain_leaves(ARRANGE_DISTICHOUS);
+    leaves.spacing = 0.01f;
+    Geometry old = grow_on(&leaves, along);
+    leaves.flush = 0.5f;
+    Geometry renewed = grow_on(&leaves, along);
+    const Part *part = &renewed.part[0], *plain = &old.part[0];
+    assert_int_equal(part->instance_count, plain->instance_count);
+    int young = 0;
+    for (int64_t i = 0; i < part->instance_count; i++) { // from the tip on
+        float share = -part->season[i];
+        assert_true(share >= 0.0f && share <= 1.0f);
+        assert_float_equal(plain->season[i], 0.0f, 0.0f);
+        assert_true(i == 0 || part->season[i] >= part->season[i - 1]);
+        assert_float_equal(length_of(&part->instance[i]),
+                           (1.0f - 0.6f * share) * length_of(&plain->instance[i]), 1e-5f);
+        assert_float_equal(part->instance[i].m[0][3], plain->instance[i].m[0][3], 1e-6f);
+        young += share > 0.0f;
+    }
+    assert_true(part->season[0] < -0.8f); // at the tip
+    assert_in_range(young, 3, part->instance_count);
+    assert_float_equal(part->season[part->instance_count - 1], 0.0f, 0.05f);
+    geometry_clear(&old);
+    geometry_clear(&renewed);
+}
+
 static void two_rows_lie_left_and_right(void **state)
 {
     (void)state;
@@ -459,6 +490,7 @@ int main(void)
         cmocka_unit_test(successive_leaves_are_turned_by_the_arrangement),
         cmocka_unit_test(leaves_are_smaller_toward_the_end),
         cmocka_unit_test(leaves_are_smaller_toward_the_base),
+        cmocka_unit_test(the_tip_is_this_years),
         cmocka_unit_test(two_rows_lie_left_and_right),
         cmocka_unit_test(hanging_leaves_hang),
         cmocka_unit_test(a_rosette_is_at_the_end),

@@ -4,6 +4,7 @@
 #include "scene_fixture.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #define WALL                                                                            \
     "objects:\n  - name: wall\n    shape: {voxel: 0.02, envelope: [{shape: box, size: " \
@@ -78,6 +79,52 @@ static void test_shoots_hang_free(void **state)
     out_tree_free(tree);
     out_tree_free(clinging);
     scene_free(scene);
+    scene_free(bare);
+}
+
+// Length (m) of the hanging shoots in each of `count` squares of the wall's front, of side 0.25 m.
+static void shoots_in_squares(const OutTree *tree, int64_t clinging, float *length, int count)
+{
+    for (int64_t i = clinging; i < tree->count; i++) {
+        int64_t foot = i;
+        while (foot >= clinging) {
+            foot = tree->parent[foot];
+        }
+        Vec3 p = tree->position[foot];
+        int square = 8 * (int)(p.y / 0.25f) + (int)((p.x + 1.0f) / 0.25f);
+        if (p.z > 0.19f && fabsf(p.x) < 1.0f && square >= 0 && square < count) {
+            length[square] += vec3_distance(tree->position[i], tree->position[tree->parent[i]]);
+        }
+    }
+}
+
+// In masses, shoots fill some squares of the wall and leave others; spread evenly they do not.
+static void test_shoots_gather_in_masses(void **state)
+{
+    enum { SQUARES = 48 };
+    static const char *const HANGING[] = {"0", "1, clump_size: 0.7"};
+    double unevenness[2] = {0};
+    Scene *bare = fixture_read(*state, WALL IVY(", hanging: {count: 0}"));
+    OutTree *clinging = grow(bare, 2);
+    for (int k = 0; k < 2; k++) {
+        char text[2000];
+        snprintf(text, sizeof text, WALL IVY(", hanging: {count: 900, length: 0.2, clumping: %s}"),
+                 HANGING[k]);
+        Scene *scene = fixture_read(*state, text);
+        OutTree *tree = grow(scene, 2);
+        float length[SQUARES] = {0};
+        shoots_in_squares(tree, clinging->count, length, SQUARES);
+        double sum = 0.0, squares = 0.0;
+        for (int i = 0; i < SQUARES; i++) {
+            sum += (double)length[i];
+            squares += (double)(length[i] * length[i]);
+        }
+        unevenness[k] = SQUARES * squares / (sum * sum);
+        out_tree_free(tree);
+        scene_free(scene);
+    }
+    assert_true(unevenness[1] > 1.3 * unevenness[0]);
+    out_tree_free(clinging);
     scene_free(bare);
 }
 
@@ -182,6 +229,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_stems_cling, fixture_set_up, fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_shoots_hang_free, fixture_set_up, fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_shoots_gather_in_masses, fixture_set_up,
+                                        fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_leaves_face_outward, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_organs_hang_before_the_wall, fixture_set_up,

@@ -26,7 +26,7 @@ ClimberParams climber_params_default(void)
                            .climb = 0.5f,
                            .wander = 0.35f,
                            .offset = 0.002f,
-                           .hanging = {.count = 150, .length = 0.5f, .droop = 0.5f},
+                           .hanging = {150, 0.5f, 0.5f, .clump_size = 0.8f},
                            .radii = {.model = RADIUS_PIPE, .exponent = 2.6f, .tip = 0.0012f},
                            .root_radius = 0.02f,
                            .leaves = {.max_count = 200000,

@@ -15,9 +15,11 @@ typedef struct ClimberStart {
 
 // Shoots that leave the surface.
 typedef struct HangingParams {
-    int64_t count; // about
-    float length;  // m, of the longest
-    float droop;   // 0..1: from stiff shoots to strings
+    int64_t count;    // about
+    float length;     // m, of the longest
+    float droop;      // 0..1: from stiff shoots to strings
+    float clumping;   // 0..1: how much they gather in bulging masses
+    float clump_size; // m, from mass to mass
 } HangingParams;
 
 typedef struct ClimberParams {
@@ -63,7 +65,8 @@ enum {
     STREAM_CLIMBER_GROWTH = 4,
     STREAM_CLIMBER_HANGING = 5,
     STREAM_CLIMBER_LEAVES = 6,
-    STREAM_CLIMBER_ORGANS = 7
+    STREAM_CLIMBER_ORGANS = 7,
+    STREAM_CLIMBER_MASSES = 8
 };
 
 ClimberParams climber_params_default(void); // ivy on a wall

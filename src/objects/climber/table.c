@@ -20,6 +20,11 @@ static const Key HANGING_KEYS[] = {
      .unit = "m", .doc = "Length of the longest."},
     {KEY_OF(HangingParams, droop, "droop", KEY_FLOAT), .high = 1,
      .doc = "From stiff shoots (0) to shoots that hang like strings (1)."},
+    {KEY_OF(HangingParams, clumping, "clumping", KEY_FLOAT), .high = 1,
+     .doc = "Distribution: 0 = uniform, 1 = in masses that bulge, of many long shoots, between "
+            "places with none."},
+    {KEY_OF(HangingParams, clump_size, "clump_size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
+     .unit = "m", .doc = "Distance from mass to mass."},
     {0},
 };
 

@@ -11,7 +11,13 @@
 
 enum { STREAM_LENGTH = 1, STREAM_WIDTH = 2, STREAM_FOLD = 3, STREAM_CURL = 4 }; // of a leaf mesh
 // Of a twig; LEAVES + i: node i.
-enum { STREAM_OFFSET = 1, STREAM_REFERENCE = 2, STREAM_SHARE = 3, STREAM_LEAVES = 100 };
+enum {
+    STREAM_OFFSET = 1,
+    STREAM_REFERENCE = 2,
+    STREAM_SHARE = 3,
+    STREAM_FLUSH = 4,
+    STREAM_LEAVES = 100
+};
 enum { STREAM_VARIANT = 9, STREAM_VARIATION = 10 }; // of a leaf
 
 // Of a leaf: here, and at least in the ray tracer.
@@ -105,19 +111,40 @@ static bool add_node(Foliage *foliage, const CurveSet *twigs, int64_t first, int
     for (int k = 0; done && k < leaves_at_node(leaves); k++) {
         uint64_t key = leaf_key(node, k);
         bool living = k < leaves_per_node(leaves);
-        float season = living ? leaves_emergence(leaves, key) - 1.0f : 1.0f;
+        float young = fmaxf(1.0f - leaves_emergence(leaves, key), node->young);
+        float season = living ? 0.0f - young : 1.0f;
         done = add_leaf(foliage, leaf_place(leaves, node, k, foliage->light), season, key, e);
     }
     return done;
 }
 
-// Length (m) of the leafy part of a twig, from its tip; 0 where no leaf's size depends on it.
+// Do blades at the tips of twigs differ from older ones? Needles differ within their mesh.
+static bool has_young_tips(const LeavesParams *leaves)
+{
+    return leaves->flush > 0.0f && leaves->shape != LEAF_NEEDLES && leaves->shape != LEAF_TUFT &&
+           leaves->shape != LEAF_SCALES;
+}
+
+// 0..1: how young the leaves at this distance (m) from the twig's tip are. leafy: m, length of the
+// twig's leafy part, of which some twigs have renewed more than others.
+static float youth_at(const LeavesParams *leaves, float distance, float leafy, uint64_t twig_key)
+{
+    if (!has_young_tips(leaves)) {
+        return 0.0f;
+    }
+    float renewed =
+        leaves->flush * leafy * random_range(random_key(twig_key, STREAM_FLUSH), 0.0f, 2.0f);
+    return distance < renewed ? 1.0f - distance / renewed : 0.0f;
+}
+
+// Length (m) of the leafy part of a twig, from its tip; 0 where no leaf depends on it.
 static float leafy_length(const LeavesParams *leaves, const CurveSet *twigs, int64_t curve)
 {
     float length = 0.0f;
     int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1;
-    for (int64_t i = last;
-         leaves->base_leaves > 0 && i > first && twigs->radius[i] < leaves->twig_radius; i--) {
+    for (int64_t i = last; (leaves->base_leaves > 0 || has_young_tips(leaves)) && i > first &&
+                           twigs->radius[i] < leaves->twig_radius;
+         i--) {
         length += vec3_distance(twigs->position[i], twigs->position[i - 1]);
     }
     return length;
@@ -140,20 +167,23 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
                       ? 0.0f
                       : 0.2f * foliage->spacing * random_unit(random_key(twig_key, STREAM_OFFSET));
     Vec3 reference = random_direction(random_key(twig_key, STREAM_REFERENCE));
-    float left = leafy_length(leaves, twigs, curve); // from point i, m
+    const float leafy = leafy_length(leaves, twigs, curve);
+    float left = leafy; // from point i, m
     for (int64_t i = last; i > first && twigs->radius[i] < leaves->twig_radius; i--) {
         Vec3 a = twigs->position[i], b = twigs->position[i - 1];
         float length = vec3_distance(a, b);
         Vec3 along = vec3_normalize(vec3_sub(a, b));
         reference = leaf_reference(leaves, reference, along);
         while (until < length) {
+            float young = youth_at(leaves, leafy - left + until, leafy, twig_key);
             LeafNode node = {.position = vec3_lerp(a, b, until / length),
                              .along = along,
                              .reference = reference,
                              .radius = twigs->radius[i],
                              .number = number,
-                             .size = leaf_size_at(leaves, number) *
+                             .size = leaf_size_at(leaves, number) * (1.0f - 0.6f * young) *
                                      leaf_size_above_base(leaves, left - until, foliage->spacing),
+                             .young = young,
                              .key = random_key(twig_key, STREAM_LEAVES + (uint64_t)number)};
             if (place && !add_node(foliage, twigs, first, i, &node, e)) {
                 *failed = true;

@@ -20,6 +20,7 @@ typedef struct LeafNode {
     float radius;   // m, of the twig
     int64_t number; // counted from the twig's tip
     float size;     // of its leaves, relative to those far from the tip
+    float young;    // 0..1: how young its leaves are
     uint64_t key;
 } LeafNode;
 

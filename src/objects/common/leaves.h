@@ -60,7 +60,7 @@ typedef struct LeavesParams {
     float shoot;        // m; 0 = the shape's own
     float needle_angle; // degrees; 0 = the shape's own
     float comb;
-    float flush;  // share of every shoot of needles, at its tip, that grew this year
+    float flush;  // share of every shoot, at its tip, that grew this year
     int variants; // different leaf meshes
     int detail;   // of a leaf's mesh: 1 for whole trees, 2 for close-ups, 3 from centimetres
 

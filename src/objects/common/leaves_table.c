@@ -151,8 +151,10 @@ static const Key LEAVES_KEYS[] = {
     {KEY_OF(LeavesParams, comb, "comb", KEY_FLOAT), .high = 1,
      .doc = "How far needles or twiglets are parted to two sides, as a fir's: 0 = all round."},
     {KEY_OF(LeavesParams, flush, "flush", KEY_FLOAT), .high = 1,
-     .doc = "Shape needles: share of every shoot, at its tip, that grew this year: its needles are "
-            "paler and let more light through. 0 = all needles are of one age."},
+     .doc =
+         "Share of every shoot, at its tip, that grew this year: its needles or leaves are paler "
+         "and let more light through; leaves are smaller toward the tip, and some shoots have "
+         "grown more than others. 0 = all are of one age. Not of shapes tuft and scales."},
     {KEY_OF(LeavesParams, emergence, "emergence", KEY_FLOAT), .high = 1,
      .doc = "Spring: 0 = closed buds, without leaves; between, small, folded and pale leaves; 1 = "
             "full-grown."},

@@ -52,6 +52,7 @@ typedef enum PatternKind {
     PATTERN_BADLANDS,  // rock in coloured beds, rills, sandy flats
     PATTERN_WATER,     // ripples
     PATTERN_MASONRY,   // a wall of stones in courses
+    PATTERN_DRESSED,   // the same weathered stone, without joints
     PATTERN_STONE,     // weathered rock: broken faces, joints, minerals, stains
     PATTERN_ALTITUDE,  // the colours of a map, by the altitude of the land
     PATTERN_ALPS,      // rock, scree, meadows and snow where wind, hollows and ledges hold it
@@ -73,9 +74,9 @@ typedef enum PatternKind {
 
 // Is relief displaced near the camera?
 typedef enum Displacement {
-    DISPLACEMENT_AUTO, // of barks, stone, masonry and of displacement_texture
+    DISPLACEMENT_AUTO, // of barks, stone, masonry, dressed, of displacement_texture
     DISPLACEMENT_OFF,  // bumps everywhere
-    DISPLACEMENT_ON    // of patterns that can be: bark, stone, masonry, noise
+    DISPLACEMENT_ON    // of patterns that can be: bark, stone, masonry, dressed, noise
 } Displacement;
 
 typedef enum BarkKind {

@@ -119,6 +119,7 @@ float pattern_height(const Material *m, const SurfacePoint *point)
     case PATTERN_BARK:
         return pattern_bark_height(m, point);
     case PATTERN_MASONRY:
+    case PATTERN_DRESSED:
         return pattern_masonry_height(m, point);
     case PATTERN_STONE:
         return pattern_stone_height(m, point);
@@ -159,6 +160,7 @@ float pattern_height_size(const Material *m)
 static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShade *) = {
     [PATTERN_BARK] = pattern_bark,
     [PATTERN_MASONRY] = pattern_masonry,
+    [PATTERN_DRESSED] = pattern_masonry,
     [PATTERN_STONE] = pattern_stone,
     [PATTERN_GROUND] = pattern_ground,
     [PATTERN_LEAF] = pattern_leaf,

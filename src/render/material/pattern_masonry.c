@@ -1,5 +1,7 @@
-// A wall of stones in courses: their heights, lengths and tones differ, mortar lies deeper. Courses
-// run level; each side of a wall is laid along the axis of the object's space that it faces least.
+// A wall of stones in courses: their heights, lengths and tones differ, each stands out and leans
+// by its own amount and has weathered in its own way; mortar lies deeper, where it has not
+// crumbled. Courses run level; each side of a wall is laid along the axis of the object's space
+// that it faces least. Dressed stone is the same without joints.
 #include "render/material/overgrowth.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_noise.h"
@@ -7,12 +9,21 @@
 #include <math.h>
 #include <stddef.h>
 
-enum { SEED_WARP = 301, SEED_ROUGH = 304, SEED_STAIN = 308 };
+enum {
+    SEED_WARP = 301,
+    SEED_ROUGH = 304,
+    SEED_STAIN = 308,
+    SEED_BEDS = 320,
+    SEED_PITS = 324,
+    SEED_MORTAR = 328,
+    SEED_FOOT = 332
+};
 
 // A stone of the wall, seen from a place on it.
 typedef struct Block {
     uint32_t hash;
     float border; // m to its edge; below 0 outside of it
+    float x, y;   // -1..1: place on its face, along the course and up
 } Block;
 
 static float scale_of(const Material *m)
@@ -49,8 +60,16 @@ static float rectangle_border(float x, float y, float half_x, float half_y, floa
     return round - outside - fminf(fmaxf(qx, qy), 0.0f);
 }
 
+// Distance to the edges, in courses' heights: broken off here and there.
+static float ragged(float border, Vec3 q)
+{
+    float chip = noise_solid(vec3_scale(q, 1.9f), SEED_WARP + 2, NULL);
+    return border - 0.05f * smoothstepf(0.05f, 0.6f, chip) +
+           0.022f * noise_fractal(vec3_scale(q, 5.0f), 2, SEED_ROUGH + 2);
+}
+
 // p: m, in the object's space, on a side that faces n.
-static Block block_at(Vec3 p, Vec3 n, float scale)
+static Block wall_block(Vec3 p, Vec3 n, float scale)
 {
     float ax = fabsf(n.x), ay = fabsf(n.y), az = fabsf(n.z);
     float along = ax > az ? p.z : p.x, up = ay > 0.8f ? (ax > az ? p.x : p.z) : p.y;
@@ -65,29 +84,59 @@ static Block block_at(Vec3 p, Vec3 n, float scale)
     int number = interval_of(along / length + shift, line, &left, &right);
     float half_x = 0.5f * length * (right - left), half_y = 0.5f * (top - bottom);
     float x = length * (along / length + shift - 0.5f * (left + right));
-    float border = rectangle_border(x, up - 0.5f * (bottom + top), half_x, half_y, 0.14f);
-    return (Block){block_hash(row, number), scale * border};
+    float y = up - 0.5f * (bottom + top);
+    float border = ragged(rectangle_border(x, y, half_x, half_y, 0.1f), q);
+    return (Block){block_hash(row, number), scale * border, x / half_x, y / half_y};
+}
+
+static Block block_at(const Material *m, Vec3 p, Vec3 n)
+{
+    const float far = 1000.0f; // m
+    return m->pattern == PATTERN_MASONRY ? wall_block(p, n, scale_of(m))
+                                         : (Block){.hash = block_hash(3, 5), .border = far};
 }
 
 // Share of a stone at this distance from its edge; the rest is mortar.
 static float stone_share(float border, float scale)
 {
-    return smoothstepf(0.03f * scale, 0.075f * scale, border);
+    return smoothstepf(0.015f * scale, 0.055f * scale, border);
+}
+
+// How the weather has worn a stone's face, as a share of the depth: along its beds, into pits, and
+// by its grain.
+static float weathered(const Block *block, Vec3 p, float scale)
+{
+    Vec3 q = vec3_madd(vec3_scale(p, 1.0f / scale), 3.0f * noise_unit(block->hash, 36),
+                       vec3(1.0f, 7.0f, 3.0f));
+    float beds = noise_fractal(vec3(2.2f * q.x, 8.0f * q.y, 2.2f * q.z), 4, SEED_BEDS);
+    float faces = noise_fractal(vec3_scale(q, 3.0f), 3, SEED_ROUGH);
+    float pits = smoothstepf(0.1f, 0.5f, noise_fractal(vec3_scale(q, 9.0f), 3, SEED_PITS));
+    float grain = noise_fractal(vec3_scale(q, 26.0f), 3, SEED_ROUGH + 3);
+    float bedded = noise_unit(block->hash, 37), pitted = noise_unit(block->hash, 38);
+    return 0.3f * bedded * beds + 0.16f * faces - 0.45f * pitted * pitted * pits + 0.05f * grain;
+}
+
+// Of the mortar, as a share of the depth: washed out in places, in others nearly flush.
+static float mortar_height(Vec3 p, float scale)
+{
+    float left = noise_fractal(vec3_scale(p, 0.8f / scale), 3, SEED_MORTAR);
+    float rough = noise_fractal(vec3_scale(p, 9.0f / scale), 4, SEED_MORTAR + 4);
+    return -0.42f + 0.3f * clampf(left, -1.0f, 1.0f) + 0.12f * rough;
 }
 
 static float relief_at(const Material *m, const SurfacePoint *point, Vec3 p)
 {
     float scale = scale_of(m), seen = pattern_detail(scale, point->footprint);
-    Block block = block_at(p, surface_smooth_normal(point), scale);
-    // Flat faces, dressed by the pick, with worn edges; mortar that the weather has washed out a
-    // little.
-    float edge = clampf(1.0f - block.border / (0.14f * scale), 0.0f, 1.0f);
-    float rough = noise_fractal(vec3_scale(p, 6.0f / scale), 5, SEED_ROUGH);
-    float worn = noise_solid(vec3_scale(p, 3.0f / scale), SEED_ROUGH + 1, NULL);
-    float face = 0.3f + 0.35f * (noise_unit(block.hash, 33) - 0.5f) -
-                 (0.3f + 0.2f * worn) * edge * edge + 0.22f * rough;
-    return m->pattern_depth * seen *
-           lerpf(-0.42f + 0.2f * rough, face, stone_share(block.border, scale));
+    Block block = block_at(m, p, surface_smooth_normal(point));
+    float worn = noise_solid(vec3_scale(p, 2.3f / scale), SEED_ROUGH + 1, NULL);
+    float round = scale * clampf(0.09f + 0.09f * worn, 0.03f, 0.18f);
+    float edge = clampf(1.0f - block.border / round, 0.0f, 1.0f);
+    float lean = 0.14f * ((noise_unit(block.hash, 39) - 0.5f) * block.x +
+                          (noise_unit(block.hash, 40) - 0.5f) * block.y);
+    float face = 0.26f + 0.4f * (noise_unit(block.hash, 33) - 0.5f) + lean -
+                 (0.25f + 0.15f * worn) * edge * edge + weathered(&block, p, scale);
+    float mortar = fminf(mortar_height(p, scale), face);
+    return m->pattern_depth * seen * lerpf(mortar, face, stone_share(block.border, scale));
 }
 
 static Overgrowth moss_of(const Material *m, const SurfacePoint *point, float mortar)
@@ -104,26 +153,45 @@ float pattern_masonry_height(const Material *m, const SurfacePoint *point)
     return m->moss > 0.0f ? height + moss_of(m, point, 0.0f).height : height;
 }
 
+// What the weather leaves on a wall: dark crusts in streaks below edges and in hollows, pale ones
+// where water has washed lime out, damp at the foot. relief: of the depth.
+static Vec3 stained(const Material *m, Vec3 p, Vec3 color, float relief)
+{
+    float scale = scale_of(m);
+    Vec3 fall = vec3(1.9f * p.x, 0.32f * p.y, 1.9f * p.z);
+    float streak = noise_fractal(fall, 4, SEED_STAIN);
+    float crust = smoothstepf(0.0f, 0.55f, streak - 0.22f * relief);
+    float pale = smoothstepf(0.15f, 0.6f, -streak - 0.1f * relief);
+    float washed = noise_fractal(vec3_scale(p, 2.5f / scale), 4, SEED_STAIN + 4);
+    float hollow = smoothstepf(0.35f, -0.45f, relief);
+    color = vec3_scale(color, (1.0f - 0.38f * hollow) * (1.0f + 0.14f * relief));
+    color = vec3_lerp(color, vec3_mul(color, vec3(0.44f, 0.45f, 0.42f)), crust);
+    color = vec3_lerp(color, vec3_mul(color, vec3(1.2f, 1.2f, 1.16f)),
+                      pale * clampf(0.5f + washed, 0.0f, 1.0f));
+    float damp = 0.5f + 0.5f * noise_fractal(vec3_scale(p, 1.7f), 3, SEED_FOOT) - 0.9f * p.y;
+    damp = smoothstepf(0.0f, 0.7f, damp);
+    return vec3_lerp(color, vec3_mul(color, vec3(0.5f, 0.56f, 0.4f)), 0.8f * damp);
+}
+
 static Vec3 color_at(const Material *m, const SurfacePoint *point, Vec3 color, float stone,
                      uint32_t hash)
 {
     Vec3 p = point->object_position;
     float scale = scale_of(m), seen = pattern_detail(0.2f * scale, point->footprint);
     Vec3 own = vec3_lerp(color, m->color2, 0.9f * noise_unit(hash, 34));
-    float hue = 0.12f * (noise_unit(hash, 35) - 0.5f);
+    float hue = 0.22f * (noise_unit(hash, 35) - 0.5f);
     own = vec3(own.x * (1.0f + hue), own.y, own.z * (1.0f - hue));
     float mottle = seen * noise_fractal(vec3_scale(p, 9.0f / scale), 4, SEED_STAIN + 8);
-    Vec3 mortar = vec3_lerp(m->color2, vec3(0.30f, 0.28f, 0.24f), 0.45f);
-    Vec3 all = vec3_scale(vec3_lerp(mortar, own, stone), 1.0f + 0.35f * mottle);
-    // Rain leaves streaks below the wall's edges.
-    float stain = noise_fractal(vec3(p.x * 2.2f, p.y * 0.35f, p.z * 2.2f), 3, SEED_STAIN);
-    return vec3_scale(all, 1.0f - 0.4f * smoothstepf(0.1f, 0.7f, stain));
+    Vec3 mortar = vec3_lerp(m->color2, vec3(0.17f, 0.155f, 0.125f), 0.5f);
+    Vec3 all = vec3_scale(vec3_lerp(mortar, own, stone), 1.0f + 0.4f * mottle);
+    float depth = m->pattern_depth > 0.0f ? m->pattern_depth : 1.0f;
+    return stained(m, p, all, relief_at(m, point, p) / depth);
 }
 
 void pattern_masonry(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     float scale = scale_of(m), bump = 1.0f - point->displaced;
-    Block block = block_at(point->object_position, surface_smooth_normal(point), scale);
+    Block block = block_at(m, point->object_position, surface_smooth_normal(point));
     float stone = lerpf(0.85f, stone_share(block.border, scale),
                         pattern_detail(0.3f * scale, point->footprint));
     shade->color = color_at(m, point, shade->color, stone, block.hash);
