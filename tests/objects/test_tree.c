@@ -201,7 +201,6 @@ static int stem_turns(const OutTree *tree, Vec3 base, double turn[MOST_STEMS])
     return stems;
 }
 
-// The trunk of scenes/twisted.yaml, whose crown is not looked at and made small.
 // Copies of all meshes of this material.
 static int64_t copies_of(const Geometry *geometry, int material)
 {
@@ -271,6 +270,46 @@ static void crowded_branches_have_names_of_their_own(void **state)
     out_tree_free(tree);
 }
 
+// The pipe model's exponent for which the stem with most tips has the trunk's radius.
+static double exponent_of_pipes(const OutTree *tree, const TreeParams *params)
+{
+    double most = 1.0, *tips = calloc((size_t)tree->count, sizeof *tips);
+    assert_non_null(tips);
+    for (int64_t i = tree->count - 1; i >= 0; i--) {
+        tips[i] = fmax(tips[i], 1.0);
+        most = fmax(most, tips[i]);
+        if (tree->parent[i] >= 0) {
+            tips[tree->parent[i]] += tips[i];
+        }
+    }
+    free(tips);
+    return log(most) / log((double)params->trunk.radius / (double)params->radii.tip);
+}
+
+// How much thicker a node of a stem is than its children account for by the pipe model, relative to
+// the length of the longest segment: large where a thin branch stands on a stump.
+static double steepest_taper(const OutTree *tree, const TreeParams *params)
+{
+    double exponent = exponent_of_pipes(tree, params), steepest = 0.0, longest = 0.0;
+    double *sum = calloc((size_t)tree->count, sizeof *sum);
+    assert_non_null(sum);
+    for (int64_t i = tree->count - 1; i >= 0; i--) {
+        double radius = (double)tree->radius[i];
+        int32_t parent = tree->parent[i];
+        if (tree->colony[i] == 0 && sum[i] > 0.0) {
+            steepest = fmax(steepest, radius - pow(sum[i], 1.0 / exponent));
+        }
+        if (parent >= 0) {
+            sum[parent] += pow(radius, exponent);
+            longest =
+                fmax(longest, (double)vec3_distance(tree->position[i], tree->position[parent]));
+        }
+    }
+    free(sum);
+    return steepest / longest;
+}
+
+// The trunk of scenes/twisted.yaml, whose crown is not looked at and made small.
 static void the_turned_field_winds_the_stems(void **state)
 {
     (void)state;
@@ -299,6 +338,8 @@ static void the_turned_field_winds_the_stems(void **state)
             OutTree *tree = grow(&params, seed, 1);
             int stems = stem_turns(tree, params.position, turn);
             assert_int_equal(stems, params.trunk.stems);
+            assert_true(steepest_taper(tree, &params) <
+                        0.35); // none is a stump that bears thin branches
             for (int s = 0; s < stems; s++) {
                 assert_true(wound ? turn[s] > 180.0 : fabs(turn[s]) < 120.0);
                 straight += wound ? 0.0 : turn[s];
