@@ -17,7 +17,7 @@ enum {
     SEED_PITS = 324,
     SEED_MORTAR = 328,
     SEED_FOOT = 332,
-    SEED_TONE = 345
+    SEED_TONE = 340
 };
 
 // A stone of the wall, seen from a place on it.
@@ -124,7 +124,7 @@ static Block block_at(const Material *m, Vec3 p, Vec3 n)
 // Share of a stone at this distance from its edge; the rest is mortar.
 static float stone_share(float border, float scale)
 {
-    return smoothstepf(0.015f * scale, 0.055f * scale, border);
+    return smoothstepf(0.025f * scale, 0.065f * scale, border);
 }
 
 // How the weather has worn a stone's face, as a share of the depth: along its beds, into pits, and
@@ -145,7 +145,7 @@ static float mortar_height(Vec3 p, float scale)
 {
     float left = noise_fractal(vec3_scale(p, 0.8f / scale), 3, SEED_MORTAR);
     float rough = noise_fractal(vec3_scale(p, 9.0f / scale), 4, SEED_MORTAR + 4);
-    return -0.42f + 0.3f * clampf(left, -1.0f, 1.0f) + 0.12f * rough;
+    return -0.36f + 0.45f * clampf(left, -1.0f, 1.0f) + 0.12f * rough;
 }
 
 static float relief_at(const Material *m, const SurfacePoint *point, Vec3 p)
@@ -166,8 +166,9 @@ static Overgrowth moss_of(const Material *m, const SurfacePoint *point, float mo
 {
     Vec3 n = surface_smooth_normal(point);
     float foot = expf(-fmaxf(point->object_position.y, 0.0f) / 0.4f);
-    float damp = clampf(0.15f + 0.7f * n.y, 0.0f, 1.0f) + 0.4f * foot;
-    return moss_at(m->moss, point, damp, mortar, 0.01f);
+    float wet = noise_fractal(vec3_scale(point->object_position, 0.8f), 3, SEED_FOOT + 4);
+    float damp = clampf(0.12f + 0.7f * n.y + 0.3f * smoothstepf(0.0f, 0.5f, wet), 0.0f, 1.0f);
+    return moss_at(m->moss, point, damp + 0.5f * foot, 0.8f * mortar, 0.01f);
 }
 
 float pattern_masonry_height(const Material *m, const SurfacePoint *point)
@@ -205,7 +206,7 @@ static Vec3 color_at(const Material *m, const SurfacePoint *point, Vec3 color, f
     float hue = 0.22f * (block->hue - 0.5f);
     own = vec3(own.x * (1.0f + hue), own.y, own.z * (1.0f - hue));
     float mottle = seen * noise_fractal(vec3_scale(p, 9.0f / scale), 4, SEED_STAIN + 8);
-    Vec3 mortar = vec3_lerp(m->color2, vec3(0.17f, 0.155f, 0.125f), 0.5f);
+    Vec3 mortar = vec3_lerp(m->color2, vec3(0.27f, 0.25f, 0.205f), 0.6f);
     Vec3 all = vec3_scale(vec3_lerp(mortar, own, stone), 1.0f + 0.4f * mottle);
     float depth = m->pattern_depth > 0.0f ? m->pattern_depth : 1.0f;
     return stained(m, p, all, relief_at(m, point, p) / depth);
