@@ -44,7 +44,8 @@ static bool write_picture(const HeightField *field, const char *file, Error *e)
     }
     float scale = high > low ? 1.0f / (high - low) : 0.0f;
     for (int64_t i = 0; i < height_field_count(field); i++) {
-        scaled->pixel[i] = (field->height[i] - low) * scale;
+        float h = field->height[i];
+        scaled->pixel[i] = isfinite(h) ? (h - low) * scale : 0.0f;
     }
     bool done = image_write_grey16(file, scaled, metadata, e);
     image_free(scaled);

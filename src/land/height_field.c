@@ -95,11 +95,15 @@ int64_t height_field_bytes(const HeightField *field)
 
 void height_field_range(const HeightField *field, float *low, float *high)
 {
-    *low = *high = field->height[0];
-    for (int64_t i = 1; i < height_field_count(field); i++) {
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (int64_t i = 0; i < height_field_count(field); i++) {
         float h = field->height[i];
-        *low = h < *low ? h : *low;
-        *high = h > *high ? h : *high;
+        *low = isfinite(h) ? fminf(h, *low) : *low;
+        *high = isfinite(h) ? fmaxf(h, *high) : *high;
+    }
+    if (*low > *high) {
+        *low = *high = 0.0f;
     }
 }
 

@@ -59,7 +59,7 @@ bool height_field_take_place(HeightField *field, const HeightField *from, double
 // Of memory, all arrays.
 int64_t height_field_bytes(const HeightField *field);
 
-// The lowest and the highest height, m.
+// The lowest and the highest height, m, of samples that have one; 0 if none has.
 void height_field_range(const HeightField *field, float *low, float *high);
 
 // Bilinear height at any point, m; outside the field, that of the rim.

@@ -48,6 +48,24 @@ static void a_cone_has_the_hypsometric_integral_of_a_cone(void **state)
     height_field_free(field);
 }
 
+// Maps have no value beyond their land or water, the first sample included.
+static void samples_without_a_value_have_no_part_in_the_range(void **state)
+{
+    (void)state;
+    HeightField *field = new_field(3, 2, 1.0f);
+    const float given[6] = {NAN, 4.0f, -2.0f, NAN, 1.0f, INFINITY};
+    memcpy(field->height, given, sizeof given);
+    float low, high;
+    height_field_range(field, &low, &high);
+    assert_true(low == -2.0f && high == 4.0f);
+    for (int i = 0; i < 6; i++) {
+        field->height[i] = NAN;
+    }
+    height_field_range(field, &low, &high);
+    assert_true(low == 0.0f && high == 0.0f);
+    height_field_free(field);
+}
+
 // A valley between two even slopes, sinking along z: all the water of a row gathers in the middle.
 static void water_gathers_in_a_valley(void **state)
 {
@@ -352,6 +370,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cone_has_the_hypsometric_integral_of_a_cone),
+        cmocka_unit_test(samples_without_a_value_have_no_part_in_the_range),
         cmocka_unit_test(water_gathers_in_a_valley),
         cmocka_unit_test(the_flood_fills_as_brute_force_does),
         cmocka_unit_test(strahler_orders_of_a_binary_network),
