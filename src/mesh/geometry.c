@@ -156,7 +156,7 @@ Mesh *geometry_bake(const Part *part, const Run *run, Error *e)
 
 static bool is_surface(const Part *part)
 {
-    return part->mesh && !part->instance;
+    return part->mesh && !part->instance && !part->is_water;
 }
 
 // Appends triangles; the counts are those so far.

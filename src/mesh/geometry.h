@@ -37,6 +37,7 @@ typedef struct Part {
     HeightField *land;   // owned; of a terrain whose maps are drawn: what the part shows, in the
                          // scene; NULL = none
     SprayParcels *spray; // owned; what it throws up; NULL = nothing
+    bool is_water;       // the surface of the water of a land, on which nothing stands
     SprayParcels *water; // owned; falling water that air has made white; NULL = none
 } Part;
 
@@ -81,8 +82,9 @@ void geometry_clear(Geometry *geometry); // frees the parts and empties the Geom
 // instances and can be instanced again. The caller frees it with mesh_free.
 Mesh *geometry_bake(const Part *part, const Run *run, Error *e);
 
-// The meshes of all parts that are not instanced as one mesh of triangles with normals, those of
-// its faces around each vertex; possibly without faces. The caller frees it with mesh_free.
+// The meshes of all parts that are neither instanced nor water as one mesh of triangles with
+// normals, those of its faces around each vertex; possibly without faces. The caller frees it with
+// mesh_free.
 Mesh *geometry_surface(const Geometry *geometry, Error *e);
 
 typedef struct GeometryCounts {

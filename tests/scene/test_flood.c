@@ -114,10 +114,51 @@ static void a_pond_that_dries_up_frees_the_land(void **state)
     scene_free(later);
 }
 
+// The place of the land's sample that is nearest.
+static int64_t nearest_sample(const HeightField *land, Vec3 p)
+{
+    int64_t column = (int64_t)((p.x - land->origin.x) / land->cell.x + 0.5f);
+    int64_t row = (int64_t)((p.z - land->origin.y) / land->cell.y + 0.5f);
+    return row * land->columns + column;
+}
+
+// Nor on the surface of the lakes and rivers of a terrain.
+static void nothing_stands_on_a_lake(void **state)
+{
+    static const char text[] =
+        "objects:\n  - name: hills\n    terrain: {resolution: 64, size: 6000, form: alps, lakes: "
+        "{count: 9, silt: 0.2}}\n  - name: stones\n    scatter: {on: hills, count: 2000, "
+        "radius: 0, variants: 1, things: [{stone: {size: 4}}]}\n";
+    Scene *scene = fixture_read(*state, text);
+    Error e = {0};
+    Run run = run_default();
+    World *world = scene_build(scene, &run, NULL, &e);
+    assert_non_null(world);
+    const HeightField *land = NULL;
+    int64_t stones = 0, wet = 0;
+    for (int64_t p = 0; p < world->geometry.count; p++) {
+        const Part *part = &world->geometry.part[p];
+        land = part->land ? part->land : land;
+        for (int64_t i = 0; part->object == 1 && i < part->instance_count; i++) {
+            Vec3 foot = transform_point(&part->instance[i], vec3(0, 0, 0));
+            assert_true(land && foot.y > land->water[nearest_sample(land, foot)] - 4.0f);
+            wet += foot.y < land->water[nearest_sample(land, foot)] + 0.5f;
+            stones++;
+        }
+    }
+
+    assert_in_range(stones, 1500, 2000);
+    assert_in_range(wet, 0, 8); // at shores; with those on the lakes 35
+    world_free(world);
+    scene_free(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(nothing_stands_in_a_pond, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(nothing_stands_on_a_lake, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(nothing_stands_under_the_sea, fixture_set_up,
                                         fixture_tear_down),

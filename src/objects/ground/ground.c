@@ -347,7 +347,8 @@ static bool add_pond(const GroundParams *params, int index, const Placing *placi
            (params->snow <= 0.0f ||
             placing_add(placing, (Part){.mesh = pond_bank_mesh(&site, &snow, &margin, e)},
                         GROUND_SNOW, e)) &&
-           placing_add(placing, (Part){.mesh = pond_water_mesh(&site, e)}, GROUND_WATER, e);
+           placing_add(placing, (Part){.mesh = pond_water_mesh(&site, e), .is_water = true},
+                       GROUND_WATER, e);
 }
 
 bool ground_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)

@@ -58,8 +58,8 @@ bool terrain_add_delta_beyond(const Terrain *terrain, const Placing *placing, Er
                    .height = water + 0.25f * depth,
                    .hole = 7,
                    .site = {1.0f, 0.2f}};
-    return placing_add(placing, (Part){.mesh = sheet_mesh(&sea, p->position, e)}, TERRAIN_WATER,
-                       e) &&
+    Part surface = {.mesh = sheet_mesh(&sea, p->position, e), .is_water = true};
+    return placing_add(placing, surface, TERRAIN_WATER, e) &&
            placing_add(placing, (Part){.mesh = sheet_mesh(&plain, p->position, e)}, TERRAIN_LAND,
                        e);
 }

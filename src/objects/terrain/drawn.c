@@ -62,7 +62,7 @@ bool drawn_move(const DrawnLand *land, Mesh *mesh, Error *e)
 
 bool drawn_add_water(const DrawnLand *land, Mesh *mesh, const Placing *placing, Error *e)
 {
-    Part part = {.mesh = mesh};
+    Part part = {.mesh = mesh, .is_water = true};
     if (mesh && !drawn_move(land, mesh, e)) {
         part_free_meshes(&part);
     }

@@ -449,7 +449,7 @@ bool terrain_add_falls(const DrawnLand *land, const Placing *placing, Error *e)
                         .columns = columns,
                         .breaks = placing->keep_water};
         f.level = fmaxf(water->position[water->parent[i]].y, lake);
-        Part part = {.mesh = fall_mesh(&f, main, e)};
+        Part part = {.mesh = fall_mesh(&f, main, e), .is_water = true};
         if (part.mesh && ((placing->keep_spray && !(part.spray = fall_spray(&f, e))) ||
                           (placing->keep_water && !(part.water = fall_water(&f, e))))) {
             part_free_meshes(&part);

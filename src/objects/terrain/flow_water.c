@@ -219,7 +219,8 @@ bool terrain_add_flow(const Terrain *terrain, const HeightField *field, const Pl
     }
     count_parts(&w);
     bool done =
-        w.faces == 0 || placing_add(placing, (Part){.mesh = water_mesh(&w, e)}, TERRAIN_WATER, e);
+        w.faces == 0 ||
+        placing_add(placing, (Part){.mesh = water_mesh(&w, e), .is_water = true}, TERRAIN_WATER, e);
     bool copied = terrain->params->beyond > 0 && !terrain_form(terrain->params)->beyond;
     if (done && w.faces > 0 && copied) {
         Mesh *mesh = water_mesh(&w, e);

@@ -68,7 +68,8 @@ bool terrain_add_copies(Mesh *mesh, const TerrainParams *params, const Placing *
 {
     int rings = params->beyond, side = 2 * rings + 1;
     Part part = {.mesh = mesh,
-                 .instance = memory_alloc((int64_t)side * side, sizeof(Transform), e)};
+                 .instance = memory_alloc((int64_t)side * side, sizeof(Transform), e),
+                 .is_water = role == TERRAIN_WATER};
     for (int i = 0; part.instance && i < side * side; i++) {
         int column = i % side - rings, row = i / side - rings;
         if (is_copied(params, column, row)) {
