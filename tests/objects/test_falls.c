@@ -427,6 +427,32 @@ static void rivers_lie_level_beside_a_wall(void **state)
     drop_valley(&v);
 }
 
+// The coordinates of a river's foam are metres across, and along the flow metres that its speed
+// shortens: foam is drawn out by it.
+static void foam_lies_along_the_flow(void **state)
+{
+    (void)state;
+    Valley v = make_valley(calm);
+    v.params.rivers.runoff = 20.0f;
+    lay(&v);
+    Geometry geometry = parts_by(terrain_add_water, &v, false, 1);
+    const Mesh *mesh = geometry.part[0].mesh;
+    int64_t upper = 0, lower = 0; // of those well within the square
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        float z = mesh->position[i].z, inside = 0.3f * SIZE;
+        assert_true(fabsf(fabsf(mesh->uv[i].y) - fabsf(mesh->position[i].x)) < 0.1f);
+        upper = fabsf(z + inside) < fabsf(mesh->position[upper].z + inside) ? i : upper;
+        lower = fabsf(z - inside) < fabsf(mesh->position[lower].z - inside) ? i : lower;
+    }
+    double way = (double)(mesh->position[lower].z - mesh->position[upper].z);
+    double along = (double)(mesh->uv[upper].x - mesh->uv[lower].x);
+    double speed = (double)v.terrain.flow[v.terrain.water->count / 2].speed;
+    assert_true(way > 0.5 * (double)SIZE && speed > 0.5);
+    assert_true(fabs(along * (1.0 + speed) / way - 1.0) < 0.03);
+    geometry_clear(&geometry);
+    drop_valley(&v);
+}
+
 // The sill above a lip dams nothing: the bed behind it drains through a notch.
 static void land_with_a_sill_drains(void **state)
 {
@@ -729,6 +755,7 @@ int main(void)
         cmocka_unit_test(a_sheet_is_a_parabola),
         cmocka_unit_test(a_ledge_throws_water_out_again),
         cmocka_unit_test(rivers_lie_level_beside_a_wall),
+        cmocka_unit_test(foam_lies_along_the_flow),
         cmocka_unit_test(land_with_a_sill_drains),
         cmocka_unit_test(strands_fall_into_the_pool),
         cmocka_unit_test(water_bends_over_a_lip_as_one_sheet),
