@@ -164,7 +164,7 @@ static void test_white_furnace(void **state)
 }
 
 // Bubbles below a river's foam have the colour of its water: that of light which has come through
-// 1.5 m of it.
+// 3 m of it.
 static void bubbles_have_the_waters_colour(void **state)
 {
     (void)state;
@@ -175,8 +175,8 @@ static void bubbles_have_the_waters_colour(void **state)
     point.foam = 0.8f;
     Bsdf bsdf = bsdf_at(set, &point, at_cosine(0.5f, 0.0f));
     assert_true(bsdf.foam > 0.3f && bsdf.foam < 0.6f);
-    assert_float_equal(bsdf.foam_color.x / bsdf.foam_color.y, expf(-1.8f), 1e-4f);
-    assert_float_equal(bsdf.foam_color.z / bsdf.foam_color.y, expf(-0.45f), 1e-4f);
+    assert_float_equal(bsdf.foam_color.x / bsdf.foam_color.y, expf(-3.6f), 1e-4f);
+    assert_float_equal(bsdf.foam_color.z / bsdf.foam_color.y, expf(-0.9f), 1e-4f);
     material_set_free(set);
 }
 

@@ -39,11 +39,11 @@ static void whiten_sea(Bsdf *b, const WavePoint *wave, const Waves *waves,
     }
 }
 
-// Reflectance of a river full of bubbles: light finds its way back out of them within a metre or
-// two of water, which takes its own share.
+// Reflectance of a river full of bubbles: light finds its way back out of them through some
+// metres of water, which takes its own share.
 static Vec3 river_plume(Vec3 absorption)
 {
-    const float white = 0.4f, way = 1.5f; // m
+    const float white = 0.32f, way = 3.0f; // m
     return vec3(white * expf(-way * absorption.x), white * expf(-way * absorption.y),
                 white * expf(-way * absorption.z));
 }
