@@ -234,7 +234,8 @@ static void calm_rivers_have_no_foam(void **state)
     drop_valley(&v);
 }
 
-// Foam is whole at the foot and fades down the pool by what the water takes to flow there.
+// Foam is whole at the foot and fades down the pool by what the water takes to flow there: dense
+// foam loses half within little more than a second, what is left of it lasts many times as long.
 static void foam_drifts_on_below_a_fall(void **state)
 {
     (void)state;
@@ -255,7 +256,8 @@ static void foam_drifts_on_below_a_fall(void **state)
     for (; water->parent[i] >= 0; i = water->parent[i]) {
         int32_t below = water->parent[i];
         double run = (double)(water->position[below].z - water->position[i].z);
-        expected *= exp(-run / (8.0 * (double)v.terrain.flow[below].speed));
+        double seconds = run / (double)v.terrain.flow[below].speed;
+        expected *= exp(-seconds / 20.0) / (1.0 + expected * seconds / 1.2);
         double found = (double)v.terrain.flow[below].foam;
         if (expected > 0.03) {
             assert_true(fabs(found - expected) < 1e-3);
@@ -421,6 +423,32 @@ static void rivers_lie_level_beside_a_wall(void **state)
     for (int64_t i = 0; i < mesh->vertex_count; i++) {
         assert_true(mesh->normal[i].y > 0.999f);
     }
+    geometry_clear(&geometry);
+    drop_valley(&v);
+}
+
+// The coordinates of a river's foam are metres across, and along the flow metres that its speed
+// shortens: foam is drawn out by it.
+static void foam_lies_along_the_flow(void **state)
+{
+    (void)state;
+    Valley v = make_valley(calm);
+    v.params.rivers.runoff = 20.0f;
+    lay(&v);
+    Geometry geometry = parts_by(terrain_add_water, &v, false, 1);
+    const Mesh *mesh = geometry.part[0].mesh;
+    int64_t upper = 0, lower = 0; // of those well within the square
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        float z = mesh->position[i].z, inside = 0.3f * SIZE;
+        assert_true(fabsf(fabsf(mesh->uv[i].y) - fabsf(mesh->position[i].x)) < 0.1f);
+        upper = fabsf(z + inside) < fabsf(mesh->position[upper].z + inside) ? i : upper;
+        lower = fabsf(z - inside) < fabsf(mesh->position[lower].z - inside) ? i : lower;
+    }
+    double way = (double)(mesh->position[lower].z - mesh->position[upper].z);
+    double along = (double)(mesh->uv[upper].x - mesh->uv[lower].x);
+    double speed = (double)v.terrain.flow[v.terrain.water->count / 2].speed;
+    assert_true(way > 0.5 * (double)SIZE && speed > 0.5);
+    assert_true(fabs(along * (1.0 + speed) / way - 1.0) < 0.03);
     geometry_clear(&geometry);
     drop_valley(&v);
 }
@@ -601,6 +629,36 @@ static void white_water_is_what_the_river_brings(void **state)
     drop_valley(&v);
 }
 
+// A shutter of half a second shows as much water, drawn out by what it falls in this time, but not
+// beyond the lip.
+static void an_open_shutter_draws_water_out(void **state)
+{
+    (void)state;
+    double contents[2] = {0.0, 0.0}, drawn[2] = {0.0, 0.0};
+    for (int k = 0; k < 2; k++) {
+        Valley v = make_valley(stepped);
+        v.params.rivers.shutter = 0.5f * (float)k;
+        lay(&v);
+        int64_t lip = -1;
+        assert_int_equal(count_falls(&v, &lip), 1);
+        Geometry geometry = fall_parts(&v, true, 1);
+        const SprayParcels *water = geometry.part[0].water;
+        float edge = v.terrain.water->position[lip].y + 0.5f;
+        for (int64_t i = 0; i < water->count; i++) {
+            const SprayParcel *parcel = &water->parcel[i];
+            contents[k] += (double)parcel->content;
+            drawn[k] += (double)(parcel->content * vec3_length(parcel->drawn));
+            assert_true(k == 0 || parcel->center.y + fabsf(parcel->drawn.y) < edge + 1.5f);
+        }
+        drawn[k] /= contents[k];
+        geometry_clear(&geometry);
+        drop_valley(&v);
+    }
+    assert_true(fabs(contents[1] / contents[0] - 1.0) < 1e-3);
+    // Half of 0.5 s at 6 to 15 m/s, less what has just left the lip.
+    assert_true(drawn[1] - drawn[0] > 1.5 && drawn[1] - drawn[0] < 3.5);
+}
+
 static void falls_have_the_same_bits_for_any_threads(void **state)
 {
     (void)state;
@@ -697,12 +755,14 @@ int main(void)
         cmocka_unit_test(a_sheet_is_a_parabola),
         cmocka_unit_test(a_ledge_throws_water_out_again),
         cmocka_unit_test(rivers_lie_level_beside_a_wall),
+        cmocka_unit_test(foam_lies_along_the_flow),
         cmocka_unit_test(land_with_a_sill_drains),
         cmocka_unit_test(strands_fall_into_the_pool),
         cmocka_unit_test(water_bends_over_a_lip_as_one_sheet),
         cmocka_unit_test(feet_throw_up_spray),
         cmocka_unit_test(falls_carry_their_spray),
         cmocka_unit_test(white_water_is_what_the_river_brings),
+        cmocka_unit_test(an_open_shutter_draws_water_out),
         cmocka_unit_test(falls_have_the_same_bits_for_any_threads),
         cmocka_unit_test(water_depth_is_the_level_less_the_bed),
         cmocka_unit_test(a_lake_has_one_level),

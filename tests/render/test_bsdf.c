@@ -163,6 +163,23 @@ static void test_white_furnace(void **state)
     }
 }
 
+// Bubbles below a river's foam have the colour of its water: that of light which has come through
+// 3 m of it.
+static void bubbles_have_the_waters_colour(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_WATER);
+    m.absorption = vec3(1.2f, 0.0f, 0.3f);
+    MaterialSet *set = material_set_new(&m, NULL, 1, NULL, NULL);
+    SurfacePoint point = flat_point(false);
+    point.foam = 0.8f;
+    Bsdf bsdf = bsdf_at(set, &point, at_cosine(0.5f, 0.0f));
+    assert_true(bsdf.foam > 0.3f && bsdf.foam < 0.6f);
+    assert_float_equal(bsdf.foam_color.x / bsdf.foam_color.y, expf(-3.6f), 1e-4f);
+    assert_float_equal(bsdf.foam_color.z / bsdf.foam_color.y, expf(-0.9f), 1e-4f);
+    material_set_free(set);
+}
+
 // Mirrors: the same with delta lobes.
 static void test_mirrors(void **state)
 {
@@ -477,6 +494,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_white_furnace),
+        cmocka_unit_test(bubbles_have_the_waters_colour),
         cmocka_unit_test(test_mirrors),
         cmocka_unit_test(test_densities),
         cmocka_unit_test(test_weights_agree),

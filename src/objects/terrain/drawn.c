@@ -55,7 +55,7 @@ bool drawn_move(const DrawnLand *land, Mesh *mesh, Error *e)
     }
     for (int64_t i = 0; i < mesh->vertex_count; i++) {
         Vec3 p = mesh->position[i] = sunk(land, mesh->position[i]);
-        mesh->uv[i] = (Vec2){p.x, p.z};
+        mesh->uv[i] = mesh->foam ? mesh->uv[i] : (Vec2){p.x, p.z}; // that of foam is the flow's
     }
     return true;
 }

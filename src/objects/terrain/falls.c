@@ -219,7 +219,10 @@ static void add_quad(FallMesher *f, uint32_t v, uint32_t columns)
 static void put_vertex(FallMesher *f, int64_t v, Vec3 at, float foam)
 {
     f->mesh->position[v] = vec3_add(at, f->terrain->params->position);
-    f->mesh->uv[v] = (Vec2){f->mesh->position[v].x, f->mesh->position[v].z};
+    Vec3 from = f->terrain->water->position[f->lip];
+    float down = from.y - at.y, fast = fmaxf(f->speed, sqrtf(2.0f * GRAVITY * fmaxf(down, 0.0f)));
+    f->mesh->uv[v] =
+        (Vec2){terrain_drawn_out(fast) * down, vec3_dot(vec3_sub(at, from), f->across)};
     f->mesh->foam[v] = foam;
 }
 
@@ -399,6 +402,7 @@ static SprayParcels *fall_water(const FallMesher *f, Error *e)
                         .way = f->way,
                         .spacing = 2.0f * f->half / (float)f->columns,
                         .discharge = f->terrain->flow[f->lip].discharge,
+                        .shutter = f->terrain->params->rivers.shutter,
                         .key = random_key(f->terrain->water->id[f->lip], STRANDS + 3)};
     bool done = water;
     for (int strand = 0; done && strand < strands; strand++) {

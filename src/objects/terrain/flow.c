@@ -73,10 +73,24 @@ static void boil(const OutTree *water, const float *drop, int64_t lip, RiverFlow
     }
 }
 
-// Foam of rapids and falls drifts on and bursts within seconds.
+// What drifts is drawn out along the flow: the length that a metre of the river has in coordinates
+// in which its foam is as wide as long.
+float terrain_drawn_out(float speed)
+{
+    return 1.0f / (1.0f + speed);
+}
+
+// Foam of rapids and falls drifts on. Where bubbles are dense they meet and burst within seconds;
+// the thin lace that is left lasts longer.
+float terrain_foam_left(float foam, float seconds)
+{
+    const float meet = 1.2f, lasts = 20.0f; // s
+    return foam / (1.0f + foam * seconds / meet) * (float)exact_exp((double)(-seconds / lasts));
+}
+
 static void drift(const OutTree *water, RiverFlow *flow)
 {
-    const float lasts = 8.0f, least = 0.02f; // s; less foam is none
+    const float least = 0.02f; // less foam is none
     for (int64_t i = water->count - 1; i >= 0; i--) {
         int32_t below = water->parent[i];
         if (below < 0) {
@@ -85,7 +99,7 @@ static void drift(const OutTree *water, RiverFlow *flow)
         Vec3 step = vec3_sub(water->position[i], water->position[below]);
         float run = sqrtf(step.x * step.x + step.z * step.z);
         float speed = flow[below].speed > 0.1f ? flow[below].speed : 0.1f;
-        float left = flow[i].foam * (float)exact_exp((double)(-run / (speed * lasts)));
+        float left = terrain_foam_left(flow[i].foam, run / speed);
         if (left > least && left > flow[below].foam) {
             flow[below].foam = left;
         }

@@ -216,6 +216,13 @@ RiverFlow terrain_flow_of(float discharge, float half, float slope);
 RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, const float *drop,
                              Error *e);
 // Widens the river at the feet of falls, where the water has dug a pool.
+// What is left of foam, 0..1, after some seconds of drifting.
+float terrain_foam_left(float foam, float seconds);
+
+// Length that a metre along the flow has in the coordinates of foam (Mesh.uv), which a metre across
+// has as it is.
+float terrain_drawn_out(float speed);
+
 void terrain_widen_pools(OutTree *water, const float *drop);
 
 // falls.c: speed of a river's water where it leaves a lip, m/s.

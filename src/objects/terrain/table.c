@@ -103,6 +103,9 @@ static const Key RIVER_KEYS[] = {
     {KEY_OF(RiverParams, foam, "foam", KEY_FLOAT), .high = 10,
      .doc = "Factor on the white water of rapids, which begins at slopes of about 0.03, and below "
             "falls; 0 = none."},
+    {KEY_OF(RiverParams, shutter, "shutter", KEY_FLOAT), .high = 10, .unit = "s",
+     .doc = "Time for which a picture shows the white water of falls (clouds: spray of water): 0 = "
+            "clots that stand still in the air; 0.5 = silk, which clots draw on their way."},
     {KEY_OF(RiverParams, fall_height, "fall_height", KEY_FLOAT), .high = 1e4, .unit = "m",
      .doc = "Minimum height of a step of the land over which a river falls freely; 0 = no "
             "waterfalls. Elsewhere steps become ramps of some cells."},

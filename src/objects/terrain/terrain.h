@@ -112,6 +112,7 @@ typedef struct RiverParams {
     float water;         // half width of the water, likewise; 0 = no water
     float runoff;        // m^3/s for a km^2 of drainage area
     float foam;          // factor on the white water of rapids
+    float shutter;       // s for which a picture shows falling water
     float fall_height;   // m: least height of a step over which the water falls; 0 = none
     float fall_slope;    // least slope of such a step, over two cells
     FieldParams *fields; // guide vector fields over the rivers' growth

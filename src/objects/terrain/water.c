@@ -81,6 +81,7 @@ typedef struct Ribbons {
     const DrawnLand *land;
     const int32_t *main; // per node: the child with the most water; -1 = none
     float lake;          // level below which the lake's surface covers the river's
+    float along;         // of the river's row: see terrain_drawn_out
     Mesh *mesh;          // NULL = only count
     int64_t vertices, faces;
 } Ribbons;
@@ -145,7 +146,7 @@ static void add_row(Ribbons *r, Vec3 middle, Vec3 below, Vec3 above, float half,
         int64_t v = r->vertices + i;
         r->mesh->position[v] = vec3_add(p, r->terrain->params->position);
         r->mesh->normal[v] = normal;
-        r->mesh->uv[v] = (Vec2){r->mesh->position[v].x, r->mesh->position[v].z};
+        r->mesh->uv[v] = (Vec2){r->along, side * half};
         r->mesh->foam[v] = r->terrain->flow[node].foam;
     }
 }
@@ -168,6 +169,11 @@ static void add_faces(Ribbons *r, int columns)
     }
 }
 
+static float level_distance(Vec3 a, Vec3 b)
+{
+    return sqrtf((a.x - b.x) * (a.x - b.x) + (a.z - b.z) * (a.z - b.z));
+}
+
 // Adds a river from its root, or a tributary from the river that it enters (the parent of `first`).
 static void add_stem(Ribbons *r, int32_t first)
 {
@@ -176,6 +182,7 @@ static void add_stem(Ribbons *r, int32_t first)
     float pieces = water->radius[first] / r->field->cell.x;
     int columns = 2 * (1 + (int)(pieces < MOST_PIECES ? pieces : MOST_PIECES)) + 3;
     int32_t below = -1, here = water->parent[first] >= 0 ? water->parent[first] : first;
+    r->along = 0.0f;
     while (here >= 0) {
         int32_t above = below < 0 && here != first ? first : r->main[here];
         bool falls = below >= 0 && r->terrain->drop[here] > 0.0f; // see falls.c
@@ -188,6 +195,7 @@ static void add_stem(Ribbons *r, int32_t first)
             // Water is as level at a lip, and at a foot, as beside it.
             from.y = r->terrain->drop[here] > 0.0f ? at.y : from.y;
             to.y = above >= 0 && r->terrain->drop[above] > 0.0f ? at.y : to.y;
+            r->along += terrain_drawn_out(r->terrain->flow[here].speed) * level_distance(from, at);
             // A brook enters a wider river with its own width.
             float half = below < 0 ? water->radius[first] : water->radius[here];
             add_row(r, water->position[here], from, to, half, columns, here);

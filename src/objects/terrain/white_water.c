@@ -28,6 +28,7 @@ static const float THREAD = 0.09f;           // m: radius
 typedef struct Clot {
     Vec3 center, along; // along: unit, down the path
     float radius, length, weight;
+    float way; // m that it is seen to fall
     uint64_t key;
 } Clot;
 
@@ -51,9 +52,12 @@ float white_water_content(void)
     return 3.0f / (DROP * EXTINCTION); // each drop takes twice its cross-section out of light
 }
 
-// What comes over the lip varies: gusts of metres and of decimetres, which part as they fall.
+// What comes over the lip varies: gusts of metres and of decimetres, which part as they fall. Those
+// that pass while the shutter is open make one streak.
 static float gust(const WhiteWater *fall, const WhiteStrand *strand, float age, float share)
 {
+    const float passes = 0.12f; // s
+    age /= 1.0f + fall->shutter / passes;
     float x = strand->side, apart = smoothstepf(0.0f, 0.5f, share);
     float broad = noise_plane_fractal(0.8f * x, 3.2f * age, 3, random_key(fall->key, 1));
     float fine = noise_plane_fractal(3.1f * x, 11.0f * age, 2, random_key(fall->key, 2));
@@ -90,6 +94,7 @@ static bool clot_of(const WhiteWater *fall, const WhiteStrand *strand, int numbe
     *clot = (Clot){.along = vec3_scale(moved, 1.0f / (speed * strand->step)),
                    .radius = size * lerpf(CLOT[0], CLOT[1], share),
                    .length = speed * spread * lerpf(0.5f, 1.4f, number_of(key, NUMBER_LONG)),
+                   .way = fminf(speed * fall->shutter, vec3_distance(place[0], p)),
                    .weight = weight * strand->width * spread,
                    .key = key};
     clot->center =
@@ -103,9 +108,10 @@ static bool add_clot(const WhiteWater *fall, const Clot *clot, SprayParcels *wat
     bool done = true;
     for (int i = 0; done && i < PARCELS; i++) {
         float behind = 0.55f * (float)i, wide = 1.0f + 0.35f * (float)i;
-        SprayParcel parcel = {.radius = wide * clot->radius,
-                              .content = GATHERED * clot->weight * (i < HEADS ? held[i] : 0.0f),
-                              .drawn = vec3_scale(clot->along, 0.4f * wide * clot->length)};
+        SprayParcel parcel = {
+            .radius = wide * clot->radius,
+            .content = GATHERED * clot->weight * (i < HEADS ? held[i] : 0.0f),
+            .drawn = vec3_scale(clot->along, 0.4f * wide * clot->length + 0.5f * clot->way)};
         Vec3 off = {0};
         if (i >= HEADS) {
             uint64_t key = random_key(clot->key, NUMBERS + (uint64_t)i);
@@ -116,7 +122,7 @@ static bool add_clot(const WhiteWater *fall, const Clot *clot, SprayParcels *wat
                          beside * even(key, NUMBER_THREAD_OFF));
             parcel.radius = fminf(THREAD, 0.8f * clot->radius) * size;
             parcel.content = (1.0f - GATHERED) * clot->weight / THREADS;
-            parcel.drawn = vec3_scale(clot->along, 0.35f * size * clot->length);
+            parcel.drawn = vec3_scale(clot->along, 0.35f * size * clot->length + 0.5f * clot->way);
         }
         parcel.center = vec3_madd(vec3_add(clot->center, off), -behind * clot->length, clot->along);
         done = spray_add(water, parcel, e);
@@ -126,8 +132,11 @@ static bool add_clot(const WhiteWater *fall, const Clot *clot, SprayParcels *wat
 
 bool white_water_strand(WhiteWater *fall, const WhiteStrand *strand, SprayParcels *water, Error *e)
 {
+    // What is seen on a long way needs fewer clots to be whole.
+    float spread = strand->step * (float)(strand->count - 1) / CLOTS; // s
+    int each = 1 + (int)fminf(0.5f * fall->shutter / fmaxf(spread, 1e-6f), CLOTS / 3.0f);
     bool done = true;
-    for (int i = 0; done && i < CLOTS; i++) {
+    for (int i = strand->number % each; done && i < CLOTS; i += each) {
         Clot clot;
         if (clot_of(fall, strand, i, &clot)) {
             fall->weights += (double)clot.weight;

@@ -12,6 +12,7 @@ typedef struct WhiteWater {
     Vec3 across, way; // unit, level: across the river and along it
     float spacing;    // m between neighbouring strands
     float discharge;  // m^3/s
+    float shutter;    // s for which clots are seen on their way
     uint64_t key;
     double weights, falling; // sums over strands: of parcels' weights; of weights times seconds
                              // that they are white

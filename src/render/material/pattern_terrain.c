@@ -327,7 +327,7 @@ void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *s
         const float wave = 1.1f, height = 0.16f; // m
         PatternOctaves heaves = pattern_octaves(point, wave, 5, 0.6f, 1.0f, 157);
         slope = vec3_madd(slope, height * point->foam, heaves.slope);
-        Vec2 at = {point->object_position.x, point->object_position.z};
+        Vec2 at = point->uv; // along the flow, and across
         // Water wells up in boils, which push foam aside into the lows between them, but where all
         // is white water.
         float boils =

@@ -13,14 +13,14 @@
 #include "render/material/material_ops.h"
 #include "render/warp.h"
 
+#include <math.h>
 #include <stddef.h>
 
-// Foam and what lies below it: bubbles that a breaker or a fall has taken down turn the water pale
-// green around it, softly. Sets the share of the pixel that scatters light at once, and its
-// reflectance. cover: of the surroundings; foam: of the pixel.
-static void whiten(Bsdf *b, float cover, float foam)
+// Foam and what lies below it: bubbles that a breaker or a fall has taken down pale the water
+// around it, softly, in the colour `plume`. Sets the share of the pixel that scatters light at
+// once, and its reflectance. cover: of the surroundings; foam: of the pixel.
+static void whiten(Bsdf *b, float cover, float foam, Vec3 plume)
 {
-    const Vec3 plume = {0.10f, 0.27f, 0.26f};
     float below = (1.0f - foam) * 0.55f * cover;
     b->foam = foam + below;
     b->foam_color = vec3_scale(vec3_add(vec3_scale(b->foam_color, foam), vec3_scale(plume, below)),
@@ -30,12 +30,22 @@ static void whiten(Bsdf *b, float cover, float foam)
 static void whiten_sea(Bsdf *b, const WavePoint *wave, const Waves *waves,
                        const SurfacePoint *point)
 {
+    const Vec3 plume = {0.10f, 0.27f, 0.26f}; // green
     float cover = waves_foam(waves, wave);
     if (cover > 0.0f) {
         Vec2 at = {point->uv.x * waves->way.x + point->uv.y * waves->way.y,
                    point->uv.y * waves->way.x - point->uv.x * waves->way.y};
-        whiten(b, cover, foam_share(cover, at, point->footprint));
+        whiten(b, cover, foam_share(cover, at, point->footprint), plume);
     }
+}
+
+// Reflectance of a river full of bubbles: light finds its way back out of them through some
+// metres of water, which takes its own share.
+static Vec3 river_plume(Vec3 absorption)
+{
+    const float white = 0.32f, way = 3.0f; // m
+    return vec3(white * expf(-way * absorption.x), white * expf(-way * absorption.y),
+                white * expf(-way * absorption.z));
 }
 
 static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, Vec3 wo)
@@ -43,7 +53,8 @@ static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point
     b->foam_color = entry->material.color2;
     if (!point->waves || !point->has_uv) {
         if (point->foam > 0.0f) {
-            whiten(b, point->foam, b->foam); // its pattern tells where foam lies
+            Vec3 plume = river_plume(entry->material.absorption);
+            whiten(b, point->foam, b->foam, plume); // its pattern tells where foam lies
         }
         return;
     }
