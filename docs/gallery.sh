@@ -265,7 +265,7 @@ species_rows() {
 }
 species_rows species
 species_rows species-winter
-fine ivy-wall ivy-wall 6
+fine ivy-wall ivy-wall 4
 still olive-trunk olive-trunk
 fine pine-rock pine-rock 5
 still leaves-sun leaves-sun

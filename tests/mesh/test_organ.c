@@ -102,6 +102,49 @@ static void clusters_have_as_many_as_asked_for(void **state)
     }
 }
 
+// Farthest from the axis among a mesh's vertices in this part of a raceme's axis, m.
+static float reach_of(const Mesh *mesh, float low, float high)
+{
+    float reach = 0.0f;
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        Vec3 p = mesh->position[i];
+        if (p.y >= low && p.y < high) {
+            reach = fmaxf(reach, sqrtf(p.x * p.x + p.z * p.z));
+        }
+    }
+    return reach;
+}
+
+// Organs and stalks of a raceme shrink to its end by the taper, and an umbel's do not.
+static void racemes_taper(void **state)
+{
+    (void)state;
+    Mesh *even[TISSUES], *tapered[TISSUES];
+    OrganParams params = plain(ORGAN_FRUIT);
+    params.per_cluster = 60;
+    params.axis = 0.3f;
+    params.stalk = 0.02f;
+    params.spread = 80.0f;
+    params.cluster = CLUSTER_RACEME;
+    make(&params, even);
+    params.taper = 0.8f;
+    make(&params, tapered);
+    const Mesh *all = even[TISSUE_FLESH], *fewer = tapered[TISSUE_FLESH];
+    assert_true(reach_of(fewer, 0.0f, 0.1f) > 0.9f * reach_of(all, 0.0f, 0.1f));
+    float end = reach_of(fewer, 0.28f, 0.4f) / reach_of(all, 0.28f, 0.4f);
+    assert_true(end > 0.2f && end < 0.45f);
+    clear(even);
+    clear(tapered);
+    params.cluster = CLUSTER_UMBEL;
+    make(&params, tapered);
+    params.taper = 0.0f;
+    make(&params, even);
+    assert_memory_equal(even[TISSUE_FLESH]->position, tapered[TISSUE_FLESH]->position,
+                        (size_t)even[TISSUE_FLESH]->vertex_count * sizeof(Vec3));
+    clear(even);
+    clear(tapered);
+}
+
 static int64_t pieces(const Mesh *mesh)
 {
     MeshTopology topology = {0};
@@ -288,6 +331,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(organs_have_their_tissues_and_size),
         cmocka_unit_test(clusters_have_as_many_as_asked_for),
+        cmocka_unit_test(racemes_taper),
         cmocka_unit_test(a_blossom_has_its_petals),
         cmocka_unit_test(a_blossom_is_hollow),
         cmocka_unit_test(buds_are_closed),

@@ -86,6 +86,13 @@ static Vec3 start_of(const OrganParams *p, int i, float *lean)
     return vec3(0, p->spur, 0);
 }
 
+// Size of number i of the cluster and of its stalk, relative to the full-grown.
+static float age_of(const OrganParams *p, int i)
+{
+    float rank = ((float)i + 0.5f) / (float)p->per_cluster;
+    return p->cluster == CLUSTER_RACEME ? 1.0f - p->taper * rank * rank : 1.0f;
+}
+
 static void add_cluster(OrganBuild *build, uint64_t seed)
 {
     const OrganParams *p = build->params;
@@ -98,14 +105,15 @@ static void add_cluster(OrganBuild *build, uint64_t seed)
     }
     for (int i = 0; i < p->per_cluster; i++) {
         uint64_t key = random_key(seed, STREAM_ONES + (uint64_t)i);
-        float lean, size = random_range(random_key(key, STREAM_SIZE), 0.88f, 1.08f);
+        float lean, age = age_of(p, i);
+        float size = age * random_range(random_key(key, STREAM_SIZE), 0.88f, 1.08f);
         Vec3 start = start_of(p, i, &lean);
         lean *= random_range(random_key(key, STREAM_OPEN), 0.8f, 1.2f);
         float turn =
             (float)i * ORGAN_DIVERGENCE + random_range(random_key(key, STREAM_TURN), -20.0f, 20.0f);
         Transform frame = organ_frame(start, lean, turn);
         uint64_t form = random_key(key, STREAM_FORM);
-        float stalk = p->stalk * random_range(random_key(key, STREAM_STALK), 0.8f, 1.15f);
+        float stalk = age * p->stalk * random_range(random_key(key, STREAM_STALK), 0.8f, 1.15f);
         stalk *= organ_is_closed(p, form) ? CLOSED_STALK : 1.0f;
         Vec3 end = transform_point(&frame, vec3(0, stalk, 0));
         organ_set_place(build, NULL);

@@ -45,6 +45,7 @@ typedef struct OrganParams {
     OrganCluster cluster;
     int per_cluster; // at least 1
     float axis;      // length of a raceme's axis
+    float taper;     // 0..1: how much smaller a raceme's organs and stalks are at its end
     float spread;    // degrees between the outermost stalks and +Y
     float open;      // 0..1: from closed to open petals, scales or wings
     int petals;      // more than 5 in several whorls

@@ -29,7 +29,7 @@ typedef struct OrganGroup {
     // Form: see OrganParams.
     OrganCluster cluster;
     int per_cluster;
-    float axis, spread;
+    float axis, taper, spread;
     float length, width, stalk; // m
     float open;
     int petals;

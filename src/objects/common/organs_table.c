@@ -55,6 +55,9 @@ static const Key ORGAN_KEYS[] = {
      .doc = "Number of them in each cluster."},
     {KEY_OF(OrganGroup, axis, "axis", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Length of a raceme's axis."},
+    {KEY_OF(OrganGroup, taper, "taper", KEY_FLOAT), .high = 1,
+     .doc = "How much smaller a raceme's organs and their stalks are toward its end, where they "
+            "are younger; 0 = all are equal."},
     {KEY_OF(OrganGroup, spread, "spread", KEY_FLOAT), .high = 180, .unit = "degrees",
      .doc = "Angle between the outermost stalks of a cluster and its axis."},
     {KEY_OF(OrganGroup, length, "length", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100, .unit = "m",
