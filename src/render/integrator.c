@@ -107,6 +107,7 @@ static void start_paths(const Tracer *tracer, int x, int y, int sample, int coun
                          .media.now = tracer->outside,
                          .spread = tracer->camera.pixel_angle,
                          .mirrored = true,
+                         .sharp = true,
                          .guided = true,
                          .straight = true,
                          .clear = 1.0f,

@@ -66,6 +66,7 @@ typedef struct Path {
     bool weighed;       // near lights were weighed by place where the ray's direction was sampled
     float near;         // chance of a lamp among the lights sampled there
     bool mirrored;      // only mirror reflections since the camera
+    bool sharp;         // only reflections since the camera that blur little: air and haze show
     bool guided;        // no chance has decided what a denoiser's guides show
     bool gathers;       // left a point, not of open water, where light was gathered through it
     bool straight;      // only films and index-matched interfaces since the camera
@@ -171,8 +172,8 @@ bool path_bounce(Vertex *vertex, const float u[4]);
 // ---- path_air.c
 
 // Adds the air in front of what the path's ray has met, `distance` m away, and haze that replaces
-// all but 1 / e of it after haze_length m (0 = none). Only for camera rays and mirror reflections
-// of them: in diffuse light the difference does not show.
+// all but 1 / e of it after haze_length m (0 = none). Only for camera rays and reflections of
+// them that blur little, as those of rippled water: in diffuse light the difference does not show.
 void path_see_through_air(Path *path, float distance, float haze_length);
 
 // The share of the light from there that air and haze let through.

@@ -49,7 +49,7 @@ Vec3 path_air_clear(const Path *path, float distance, float haze_length)
 
 void path_see_through_air(Path *path, float distance, float haze_length)
 {
-    if (!path->mirrored) {
+    if (!path->sharp) {
         return;
     }
     if (path->tracer->world->sky.aerial_perspective > 0.0f && path->media.count == 0) {

@@ -193,7 +193,7 @@ Travel path_scatter_in_cloud(Path *path, float t)
         return TRAVEL_ENDED;
     }
     path->in_cloud = true;
-    path->mirrored = path->straight = false;
+    path->mirrored = path->sharp = path->straight = false;
     path->from = (LightReceiver){.position = point};
     path->weighed = true;
     float u[4], v[4];

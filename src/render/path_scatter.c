@@ -179,7 +179,7 @@ static Travel scatter(Path *path, const MediumLine *line, float length, float pd
     path->travelled = 0.0f;
     path->footprint += path->spread * t;
     path->spread = larger(path->spread, 0.25f / (1.0f + phase));
-    path->mirrored = path->straight = false;
+    path->mirrored = path->sharp = path->straight = false;
     path->gathers = true;
     path->depth += outside ? 1 : 0;
     path->ray = (Ray){.origin = point, .direction = direction, .far = INFINITY, .key = path->key++};

@@ -6,6 +6,9 @@
 
 enum { MOST_CROSSINGS = 256 }; // of index-matched interfaces by one path
 
+// A reflection blurred so far, radians, does not show air and haze; of diffuse light it is 0.19.
+static const float BLURRED = 0.15f;
+
 // Straight on through an index-matched interface. False after too many of them.
 static bool cross_index_matched(Path *path, const SurfacePoint *point)
 {
@@ -298,7 +301,9 @@ bool path_bounce(Vertex *vertex, const float u[4])
     path->gathers = !sample.delta && !(bsdf->traits & TRAIT_OPEN);
     if (!sample.delta) {
         path->mirrored = false;
-        path->spread = larger(path->spread, 0.25f / (1.0f + sample.pdf));
+        float lobe = 0.25f / (1.0f + sample.pdf);
+        path->spread = larger(path->spread, lobe);
+        path->sharp = path->sharp && lobe < BLURRED;
     }
     if (sample.transmitted && bsdf->traits & TRAIT_BODY) {
         media_cross(&path->media, path->tracer, point->material, point->backface);

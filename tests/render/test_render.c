@@ -619,6 +619,31 @@ static void haze_fades_with_distance(void **state)
     world_free(world);
 }
 
+// A black wall 10 m before a reflecting one, which is 5 m away, fades over 15 m, also where the
+// reflection is a little blurred, as by ripples.
+static void haze_is_mirrored(void **state)
+{
+    (void)state;
+    const float roughness[] = {0.0f, 0.1f};
+    for (int i = 0; i < 2; i++) {
+        World *world = tiny_world(4, 4, 64, 0.0f);
+        world->sky.kind = SKY_CONSTANT;
+        world->sky.color = vec3_splat(1.0f);
+        world->sky.haze_distance = 10.0f;
+        world->camera.fov = 0.5f;
+        world->material[1] = material_default(MATERIAL_CONDUCTOR);
+        world->material[1].color = vec3_splat(1.0f);
+        world->material[1].roughness = roughness[i];
+        world->material_count = 2;
+        add_mesh(world, quad_mesh(vec3(-9, -9, 0), vec3(18, 0, 0), vec3(0, 18, 0)), 1, 1);
+        add_mesh(world, quad_mesh(vec3(99, -99, 10), vec3(-198, 0, 0), vec3(0, 198, 0)), 0, 0);
+        Film *film = trace(world, 1, NULL);
+        ASSERT_NEAR(center_color(film).y, 1.0 - exp(-1.5), 0.02); // a lobe has wide tails
+        film_free(film);
+        world_free(world);
+    }
+}
+
 // ---- interruption and errors
 
 typedef struct Stop {
@@ -820,6 +845,7 @@ int main(void)
         cmocka_unit_test(thin_lens_focus),
         cmocka_unit_test(lens_shift),
         cmocka_unit_test(haze_fades_with_distance),
+        cmocka_unit_test(haze_is_mirrored),
         cmocka_unit_test(cancel_leaves_a_whole_picture),
         cmocka_unit_test(cancel_ends_the_first_pass),
         cmocka_unit_test(passes_grow),
