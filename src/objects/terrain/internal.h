@@ -215,7 +215,6 @@ RiverFlow terrain_flow_of(float discharge, float half, float slope);
 // The flow at each node; foam drifts on below rapids and falls. The caller frees the array.
 RiverFlow *terrain_find_flow(const TerrainParams *params, const OutTree *water, const float *drop,
                              Error *e);
-// Widens the river at the feet of falls, where the water has dug a pool.
 // What is left of foam, 0..1, after some seconds of drifting.
 float terrain_foam_left(float foam, float seconds);
 
@@ -223,6 +222,7 @@ float terrain_foam_left(float foam, float seconds);
 // has as it is.
 float terrain_drawn_out(float speed);
 
+// Widens the river at the feet of falls, where the water has dug a pool.
 void terrain_widen_pools(OutTree *water, const float *drop);
 
 // falls.c: speed of a river's water where it leaves a lip, m/s.
