@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -40,6 +41,24 @@ void *memory_alloc_zero(int64_t count, size_t size, Error *e)
 {
     size_t bytes = 0;
     return byte_count(count, size, &bytes, e) ? or_error(calloc(1, bytes), bytes, e) : NULL;
+}
+
+void *memory_alloc_wide(int64_t count, size_t size, Error *e)
+{
+    const size_t page = (size_t)2 << 20;
+    size_t bytes = 0;
+    void *wide = NULL;
+    if (!byte_count(count, size, &bytes, e)) {
+        return NULL;
+    }
+    if (bytes < 2 * page) {
+        return or_error(malloc(bytes), bytes, e);
+    }
+    if (or_error(posix_memalign(&wide, page, bytes) == 0 ? wide : NULL, bytes, e)) {
+        (void)madvise(wide, bytes, MADV_HUGEPAGE); // may be refused: only a hint
+        return wide;
+    }
+    return NULL;
 }
 
 bool memory_reserve(void *array, int64_t *capacity, int64_t count, size_t size, Error *e)

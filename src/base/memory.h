@@ -15,6 +15,11 @@ void *memory_alloc(int64_t count, size_t size, Error *e);
 // The same, zeroed.
 void *memory_alloc_zero(int64_t count, size_t size, Error *e);
 
+// As memory_alloc, for arrays of many megabytes that are read here and there: on large pages where
+// the system offers them, since the search for a small one (a miss of the processor's table of
+// pages) may take longer than the read.
+void *memory_alloc_wide(int64_t count, size_t size, Error *e);
+
 // Grows *array (of *capacity elements of size bytes; NULL and 0 at first) geometrically to at least
 // count elements. On failure the array is unchanged.
 bool memory_reserve(void *array, int64_t *capacity, int64_t count, size_t size, Error *e);

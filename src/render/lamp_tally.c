@@ -160,7 +160,7 @@ static void settle(Vec3 *value, const LampTally *tally, const LampBox *box, cons
 // Lengths of coarser voxels are still counted in sides of the finest.
 static Vec3 *means(const LampTally *tally, const LampBox *box, float scale, int level, Error *e)
 {
-    Vec3 *value = memory_alloc(lamp_box_voxels(box), sizeof *value, e);
+    Vec3 *value = memory_alloc_wide(lamp_box_voxels(box), sizeof *value, e);
     LampBox next = coarser(box);
     bool last = level + 1 == LEVELS || lamp_box_voxels(box) == 1;
     LampTally *sums =

@@ -126,6 +126,24 @@ static void noise_is_smooth_and_zero_on_the_lattice(void **state)
     assert_true(noise_plane(3.0f, -8.0f, 5) == 0.0f);
 }
 
+// Large arrays begin on a large page, else the system cannot use one; all of them can be written
+// to.
+static void wide_arrays_lie_on_large_pages(void **state)
+{
+    (void)state;
+    Error e = {0};
+    const int64_t counts[] = {0, 1000, (1 << 23) + 3};
+    for (int i = 0; i < 3; i++) {
+        char *array = memory_alloc_wide(counts[i], 1, &e);
+        assert_non_null(array);
+        memset(array, 7, (size_t)counts[i]);
+        assert_true(counts[i] < 1 << 22 || (uintptr_t)array % (2u << 20) == 0);
+        free(array);
+    }
+    assert_null(memory_alloc_wide(INT64_MAX / 2, 16, &e));
+    assert_int_equal(e.code, ERROR_MEMORY);
+}
+
 static void absurd_allocations_are_errors(void **state)
 {
     (void)state;
@@ -166,6 +184,7 @@ int main(void)
         cmocka_unit_test(a_transform_and_its_inverse_cancel),
         cmocka_unit_test(rotations_go_counter_clockwise),
         cmocka_unit_test(noise_is_smooth_and_zero_on_the_lattice),
+        cmocka_unit_test(wide_arrays_lie_on_large_pages),
         cmocka_unit_test(absurd_allocations_are_errors),
         cmocka_unit_test(errors_name_their_place),
     };

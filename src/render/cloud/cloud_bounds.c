@@ -381,7 +381,7 @@ static bool make_room(CloudGrid *g, const Run *run, Error *e)
             g->cell[i].parts = (int32_t)count++;
         }
     }
-    g->part = memory_alloc(count > 0 ? count : 1, sizeof *g->part * PARTS * PARTS * PARTS, e);
+    g->part = memory_alloc_wide(count > 0 ? count : 1, sizeof *g->part * PARTS * PARTS * PARTS, e);
     return g->part;
 }
 

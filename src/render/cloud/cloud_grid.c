@@ -124,8 +124,8 @@ bool cloud_grid_new(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail,
                       g->count[0], g->count[1], g->count[2])) {
         return false;
     }
-    g->node = memory_alloc(nodes, sizeof *g->node, e);
-    g->cell = memory_alloc(cloud_grid_cells(g), sizeof *g->cell, e);
+    g->node = memory_alloc_wide(nodes, sizeof *g->node, e);
+    g->cell = memory_alloc_wide(cloud_grid_cells(g), sizeof *g->cell, e);
     if (cloud->kind == CLOUD_STORM) {
         g->ice = memory_alloc_zero(nodes, sizeof *g->ice, e);
     }

@@ -102,7 +102,7 @@ static bool fill_bounds(CloudGrid *g, const Run *run, Error *e)
     if (!memory_check(bytes, e, "bounds of %lld cells of a cloud's grid", (long long)count)) {
         return false;
     }
-    g->part = memory_alloc(count > 0 ? count : 1, sizeof *g->part * PARTS * PARTS * PARTS, e);
+    g->part = memory_alloc_wide(count > 0 ? count : 1, sizeof *g->part * PARTS * PARTS * PARTS, e);
     if (!g->part) {
         return false;
     }
@@ -170,7 +170,7 @@ static bool bound(CloudGrid *g, const Cloud *cloud, const Run *run, Error *e)
 {
     g->extinction = cloud->extinction * g->voxels->highest;
     g->rough.edge[1] = 4.0f * g->voxel; // over which its guiding normals turn
-    g->cell = memory_alloc(cloud_grid_cells(g), sizeof *g->cell, e);
+    g->cell = memory_alloc_wide(cloud_grid_cells(g), sizeof *g->cell, e);
     return g->cell && fill_bounds(g, run, e);
 }
 

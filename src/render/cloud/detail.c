@@ -280,7 +280,7 @@ DetailRange detail_range(const DetailNoise *n, Vec3 middle, Vec3 half)
 DetailNoise *detail_new(uint64_t key, const Run *run, Error *e)
 {
     Tables *tables = memory_alloc(1, sizeof *tables, e);
-    DetailNoise *noise = tables ? memory_alloc(1, sizeof *noise, e) : NULL;
+    DetailNoise *noise = tables ? memory_alloc_wide(1, sizeof *noise, e) : NULL;
     if (!noise) {
         free(tables);
         return NULL;
