@@ -60,11 +60,11 @@ typedef struct Path {
     int crossings;   // of index-matched interfaces
     uint64_t cloud_key; // state of the random numbers that track through clouds
     int cloud_order;    // how far the phase function of droplets has widened: scatterings by them
+    float near;         // chance of a lamp among the lights sampled at start
+    bool weighed;       // near lights were weighed by place there
     bool in_cloud;      // scattered by a droplet since the last surface
     bool lamps_known;   // the light of lamps, up to the next surface, has been added
     bool shown;         // that of the lamp or glowing surface that the ray meets has been added
-    bool weighed;       // near lights were weighed by place where the ray's direction was sampled
-    float near;         // chance of a lamp among the lights sampled there
     bool mirrored;      // only mirror reflections since the camera
     bool sharp;         // only reflections since the camera that blur little: air and haze show
     bool guided;        // no chance has decided what a denoiser's guides show
