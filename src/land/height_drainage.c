@@ -211,7 +211,7 @@ static Drainage *allocate(const HeightField *field, Error *e)
     if (!out) {
         return NULL;
     }
-    out->count = count;
+    out->samples = out->count = count;
     out->receiver = memory_alloc(count, sizeof *out->receiver, e);
     out->order = memory_alloc(count, sizeof *out->order, e);
     out->area = memory_alloc_zero(count, sizeof *out->area, e);

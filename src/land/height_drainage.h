@@ -7,9 +7,10 @@
 #include "land/height_field.h"
 
 typedef struct Drainage {
-    int64_t count;
+    int64_t samples;   // of the field: receiver, area and filled have a value for each
+    int64_t count;     // those of them that drain, which are all with a height
     int32_t *receiver; // the neighbour that a sample drains to; itself on the rim (an outlet)
-    int32_t *order;    // all samples, every receiver before its donors
+    int32_t *order;    // the `count` that drain, every receiver before its donors
     double *area;      // m^2: catchment area of a sample, including its own cell
     float *filled;     // m: water level if all pits were full, >= height
     int64_t pits;      // inner samples without a lower neighbour

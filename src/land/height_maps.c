@@ -110,7 +110,7 @@ static bool fill_flow(const HeightField *field, const Drainage *drainage, Height
                       Error *e)
 {
     (void)e;
-    for (int64_t i = 0; i < drainage->count; i++) {
+    for (int64_t i = 0; i < drainage->samples; i++) {
         out->height[i] = isfinite(field->height[i]) ? (float)drainage->area[i] : NAN;
     }
     return true;
@@ -197,7 +197,7 @@ static bool is_river(const HeightField *field, const uint8_t *order, int64_t i)
 static bool fill_river_distance(const HeightField *field, const Drainage *drainage,
                                 HeightField *out, Error *e)
 {
-    int64_t count = drainage->count;
+    int64_t count = drainage->samples;
     uint8_t *order = memory_alloc_zero(count, sizeof *order, e);
     double *squared = memory_alloc(count, sizeof *squared, e);
     bool done =

@@ -36,7 +36,7 @@ static double fit_slope(const LineFit *fit, double least)
 bool drainage_orders(const Drainage *drainage, double least_area, uint8_t *order, Error *e)
 {
     // per sample: how many of its donors share the highest order so far
-    uint8_t *equals = memory_alloc_zero(drainage->count, 1, e);
+    uint8_t *equals = memory_alloc_zero(drainage->samples, 1, e);
     if (!equals) {
         return false;
     }

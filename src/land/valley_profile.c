@@ -81,9 +81,9 @@ bool valley_profile_exponent(const HeightField *field, const Drainage *drainage,
                 .floor = 0.0012f * (high - low),
                 .shoulder = 0.2f * (high - low),
                 .wall = (high - low) / 6.0f};
-    double *found = memory_alloc(2 * drainage->count, sizeof *found, e);
+    double *found = memory_alloc(2 * drainage->samples, sizeof *found, e);
     int64_t count = 0;
-    for (int64_t i = 0; found && i < drainage->count; i++) {
+    for (int64_t i = 0; found && i < drainage->samples; i++) {
         if (drainage->area[i] < least_area) {
             continue;
         }

@@ -184,8 +184,11 @@ static void strahler_orders_of_a_binary_network(void **state)
         comb.area[i] += 1.0;
         comb.area[comb.receiver[i]] += comb.area[i];
     }
-    comb.d = (Drainage){
-        .count = comb.count, .receiver = comb.receiver, .order = comb.order, .area = comb.area};
+    comb.d = (Drainage){.samples = comb.count,
+                        .count = comb.count,
+                        .receiver = comb.receiver,
+                        .order = comb.order,
+                        .area = comb.area};
     uint8_t order[4096] = {0};
     Error e = {0};
     assert_true(drainage_orders(&comb.d, 0.5, order, &e));

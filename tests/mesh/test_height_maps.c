@@ -191,6 +191,7 @@ static void missing_land_is_missing_in_maps(void **state)
     field->ground = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
     field->age = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
     field->water = memory_alloc_zero(COLUMNS * ROWS, sizeof(float), NULL);
+    field->water[COLUMNS * ROWS - 1] = 1e6f; // else river-distance is infinite
     char names[] = HEIGHT_MAP_NAMES;
     for (char *name = strtok(names, " "); name; name = strtok(NULL, " ")) {
         HeightField *map = map_of(field, name);

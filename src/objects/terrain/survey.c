@@ -96,7 +96,7 @@ static void round_courses(OutTree *tree, const int64_t *upper)
 static bool gather_rivers(OutTree *tree, const HeightField *field, const Drainage *drainage,
                           double least, uint64_t seed, Error *e)
 {
-    int64_t *node = memory_alloc(drainage->count, sizeof *node, e);
+    int64_t *node = memory_alloc(drainage->samples, sizeof *node, e); // of samples; -1 = no river
     int64_t *upper = memory_alloc(drainage->count, sizeof *upper, e); // of nodes: the largest
     bool done = node && upper;
     for (int64_t k = 0; done && k < drainage->count; k++) {
