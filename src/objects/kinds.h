@@ -25,6 +25,7 @@
     X(climber)      \
     X(stone)        \
     X(scatter)      \
+    X(row)          \
     X(sea)          \
     X(snow_crystal) \
     X(frost_flower) \

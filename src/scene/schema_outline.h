@@ -6,7 +6,7 @@
 #include "scene/schema_text.h"
 
 #define OUTLINE_MOST_SECTIONS 128
-#define OUTLINE_MOST_PLACES 64
+#define OUTLINE_MOST_PLACES 96
 
 typedef struct OutlinePlace {
     const char *path;  // "objects.NAME.tree.trunk"; "" = the scene itself

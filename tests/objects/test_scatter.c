@@ -20,17 +20,17 @@ static float slope_height(const void *user, float x, float z)
 static ScatteringParams of_things(Thing *things, int count)
 {
     ScatteringParams scatter = scattering_params_default();
-    scatter.things = things;
-    scatter.thing_count = count;
+    scatter.things.list = things;
+    scatter.things.count = count;
     scatter.clumping = 0.0f;
-    scatter.variants = 1;
+    scatter.things.variants = 1;
     return scatter;
 }
 
-static ScatterPlaces places_of(const ScatteringParams *scatter, const Recipe *recipe,
-                               const Surroundings *around)
+static ThingPlaces places_of(const ScatteringParams *scatter, const Recipe *recipe,
+                             const Surroundings *around)
 {
-    ScatterPlaces places;
+    ThingPlaces places;
     Error e = {0};
     assert_true(scatter_places_init(&places, scatter, recipe, around, &e));
     return places;
@@ -57,7 +57,7 @@ static void keeps_distance_on_the_land(void **state)
     Run run = run_default();
     Recipe recipe = {.seed = 11, .run = &run};
     Surroundings around = {.land = {slope_height, &slope}};
-    ScatterPlaces places = places_of(&scatter, &recipe, &around);
+    ThingPlaces places = places_of(&scatter, &recipe, &around);
     assert_int_equal(places.count, 300);
     for (int64_t i = 0; i < places.count; i++) {
         Vec3 p = foot(&places.place[i]);
@@ -71,7 +71,7 @@ static void keeps_distance_on_the_land(void **state)
             assert_true(vec3_distance(p, foot(&places.place[k])) >= 0.4999f);
         }
     }
-    scatter_places_free(&places);
+    thing_places_free(&places);
 }
 
 static void stops_where_there_is_no_room(void **state)
@@ -84,11 +84,11 @@ static void stops_where_there_is_no_room(void **state)
     scatter.spacing = 1.0f;
     Run run = run_default();
     Recipe recipe = {.seed = 1, .run = &run};
-    ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    ThingPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
     // Discs of half the spacing about the places fit into one of 2.5 m: 25 at most, and about half
     // of that when they fall at random (jamming at a density of 0.547).
     assert_in_range(places.count, 10, 25);
-    scatter_places_free(&places);
+    thing_places_free(&places);
 }
 
 static void keeps_to_slopes_and_shares(void **state)
@@ -106,7 +106,7 @@ static void keeps_to_slopes_and_shares(void **state)
     scatter.align = 1.0f;
     Run run = run_default();
     Recipe recipe = {.seed = 5, .run = &run, .surface = &surface};
-    ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    ThingPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
     int64_t first = 0, upper = 0;
     for (int64_t i = 0; i < places.count; i++) {
         Vec3 p = foot(&places.place[i]);
@@ -122,7 +122,7 @@ static void keeps_to_slopes_and_shares(void **state)
     double share = (double)first / 2000.0, above = (double)upper / 2000.0;
     assert_true(fabs(share - 0.75) < 0.04); // 4 standard errors
     assert_true(fabs(above - 0.5) < 0.05);  // areas of a sphere go by height (Archimedes)
-    scatter_places_free(&places);
+    thing_places_free(&places);
     mesh_free(ball);
 }
 
@@ -141,7 +141,7 @@ static void fills_a_small_patch_of_a_surface(void **state)
     scatter.radius = 0.1f;
     Run run = run_default();
     Recipe recipe = {.seed = 5, .run = &run, .surface = &surface};
-    ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    ThingPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
     assert_int_equal(places.count, 2000);
     int64_t inner = 0;
     for (int64_t i = 0; i < places.count; i++) {
@@ -150,7 +150,7 @@ static void fills_a_small_patch_of_a_surface(void **state)
         inner += away < 0.1f * 0.70710678f;
     }
     assert_true(fabs((double)inner / 2000.0 - 0.5) < 0.05); // 4 standard errors
-    scatter_places_free(&places);
+    thing_places_free(&places);
     mesh_free(ball);
 }
 
@@ -172,7 +172,7 @@ static void fills_a_small_patch_of_a_wide_face(void **state)
     scatter.center = vec3(10.0f, 0.0f, 10.0f);
     Run run = run_default();
     Recipe recipe = {.seed = 3, .run = &run, .surface = &surface};
-    ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    ThingPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
     assert_int_equal(places.count, scatter.count);
     double one_side = 0.0, near = 0.0;
     Vec3 mean = {0};
@@ -185,11 +185,11 @@ static void fills_a_small_patch_of_a_wide_face(void **state)
     }
     assert_true(fabs(one_side / 4000.0 - 0.5) < 0.03 && fabs(near / 4000.0 - 0.25) < 0.03);
     assert_true(vec3_length(mean) < 0.05f);
-    scatter_places_free(&places);
+    thing_places_free(&places);
 }
 
 // Mean number of neighbours within half a metre.
-static double crowd(const ScatterPlaces *places)
+static double crowd(const ThingPlaces *places)
 {
     int64_t near = 0;
     for (int64_t i = 0; i < places->count; i++) {
@@ -209,14 +209,14 @@ static void clumps(void **state)
     scatter.radius = 15.0f;
     Run run = run_default();
     Recipe recipe = {.seed = 2, .run = &run};
-    ScatterPlaces even = places_of(&scatter, &recipe, &(Surroundings){0});
+    ThingPlaces even = places_of(&scatter, &recipe, &(Surroundings){0});
     scatter.clumping = 1.0f;
-    ScatterPlaces clumped = places_of(&scatter, &recipe, &(Surroundings){0});
+    ThingPlaces clumped = places_of(&scatter, &recipe, &(Surroundings){0});
     double expected = 1500.0 * 0.25 / (15.0 * 15.0); // of uniform places
     assert_true(fabs(crowd(&even) / expected - 1.0) < 0.15);
     assert_true(crowd(&clumped) > 1.4 * crowd(&even));
-    scatter_places_free(&even);
-    scatter_places_free(&clumped);
+    thing_places_free(&even);
+    thing_places_free(&clumped);
 }
 
 static bool is_flooded(const void *user, Vec3 p)
@@ -236,12 +236,12 @@ static void keeps_to_its_side_of_the_shore(void **state)
     Flood flood = {is_flooded, NULL};
     for (int wet = 0; wet < 2; wet++) {
         scatter.in_water = wet;
-        ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){.flood = &flood});
+        ThingPlaces places = places_of(&scatter, &recipe, &(Surroundings){.flood = &flood});
         assert_int_equal(places.count, 200);
         for (int64_t i = 0; i < places.count; i++) {
             assert_int_equal(foot(&places.place[i]).x > 1.0f, wet);
         }
-        scatter_places_free(&places);
+        thing_places_free(&places);
     }
 }
 
@@ -280,7 +280,7 @@ static void a_depth_decides_alone(void **state)
     Recipe recipe = {.seed = 8, .run = &run, .land = land};
     for (int in_water = 0; in_water < 2; in_water++) {
         scatter.in_water = in_water;
-        ScatterPlaces places =
+        ThingPlaces places =
             places_of(&scatter, &recipe, &(Surroundings){.land = {slope_height, &slope}});
         int under = 0;
         assert_int_equal(places.count, 100);
@@ -290,7 +290,7 @@ static void a_depth_decides_alone(void **state)
             under += depth > 0.0f;
         }
         assert_true(under > 15 && under < 50); // of 0.37 m a third are under water
-        scatter_places_free(&places);
+        thing_places_free(&places);
     }
     height_field_free(land);
 }
@@ -317,7 +317,7 @@ static void afloat_is_on_the_surface(void **state)
     Recipe recipe = {.seed = 4, .run = &run};
     Flood flood = {is_below_5, NULL};
     Surroundings around = {.flood = &flood, .land = {slope_height, &slope}};
-    ScatterPlaces places = places_of(&scatter, &recipe, &around);
+    ThingPlaces places = places_of(&scatter, &recipe, &around);
     assert_int_equal(places.count, 100);
     for (int64_t i = 0; i < places.count; i++) {
         Vec3 p = foot(&places.place[i]);
@@ -325,7 +325,7 @@ static void afloat_is_on_the_surface(void **state)
         assert_true(fabsf(p.y - 5.0f) < 1e-4f && bed >= 2.0f && bed < 5.0f);
         assert_true(places.place[i].m[0][1] == 0.0f && places.place[i].m[2][1] == 0.0f); // upright
     }
-    scatter_places_free(&places);
+    thing_places_free(&places);
 }
 
 static void land_of_one_slope_meets_its_range_alone(void **state)
@@ -342,13 +342,13 @@ static void land_of_one_slope_meets_its_range_alone(void **state)
     Run run = run_default();
     Recipe recipe = {.seed = 6, .run = &run};
     Surroundings around = {.land = {slope_height, &slope}};
-    ScatterPlaces places = places_of(&scatter, &recipe, &around);
+    ThingPlaces places = places_of(&scatter, &recipe, &around);
     assert_int_equal(places.count, 50);
-    scatter_places_free(&places);
+    thing_places_free(&places);
     ranges[0].range[1] = 16.5f;
     places = places_of(&scatter, &recipe, &around);
     assert_int_equal(places.count, 0);
-    scatter_places_free(&places);
+    thing_places_free(&places);
 }
 
 // Of a ball seen from above, the slope at a distance r from the axis is asin r.
@@ -370,7 +370,7 @@ static void copies_become_fewer_beyond_a_range(void **state)
     scatter.where_count = 2;
     Run run = run_default();
     Recipe recipe = {.seed = 7, .run = &run, .surface = &surface};
-    ScatterPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    ThingPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
     double in = 0.0, fading = 0.0;
     for (int64_t i = 0; i < places.count; i++) {
         Vec3 p = foot(&places.place[i]);
@@ -384,7 +384,7 @@ static void copies_become_fewer_beyond_a_range(void **state)
     double a = 20.0 * (double)RADIANS_PER_DEGREE, b = 2.0 * a;
     double wanted = (cos(a) - (sin(b) - sin(a)) / (b - a)) / (1.0 - cos(a));
     assert_true(in > 100.0 && fabs(fading / in / wanted - 1.0) < 0.15);
-    scatter_places_free(&places);
+    thing_places_free(&places);
     mesh_free(ball);
 }
 
@@ -398,7 +398,7 @@ static void copies_every_thing(void **state)
                        {.object = {.kind = &kind_stone, .params = &large}, .share = 1.0f}};
     ScatteringParams scatter = of_things(things, 2);
     scatter.count = 100;
-    scatter.variants = 2;
+    scatter.things.variants = 2;
     Run run = run_default();
     Recipe recipe = {.seed = 9, .run = &run, .label = "object 'stones'"};
     Geometry geometry = {0};

@@ -39,7 +39,6 @@ typedef struct Search {
     Where where;                 // maps that places are chosen by
     const HeightField *wet; // the land that tells where its water is; NULL = unknown, or by_depth
     bool by_depth;          // conditions on the water's depth decide
-    float shares;           // of all things
     uint64_t seed;
 } Search;
 
@@ -231,19 +230,6 @@ static bool is_allowed(const Search *s, const Spot *spot)
            random_unit(random_key(spot->key, STREAM_WHERE)) < where_share(&s->where, spot->p);
 }
 
-static int choose_thing(const Search *s, uint64_t key)
-{
-    float at = s->shares * random_unit(random_key(key, STREAM_THING));
-    int last = s->params->thing_count - 1;
-    for (int i = 0; i < last; i++) {
-        at -= s->params->things[i].share;
-        if (at < 0.0f) {
-            return i;
-        }
-    }
-    return last;
-}
-
 // Each thing has patches of its own.
 static bool is_in_patch(const Search *s, const Spot *spot, int thing)
 {
@@ -327,16 +313,13 @@ static bool has_depth_condition(const ScatteringParams *params)
 
 static bool search_begin(Search *s, const Recipe *recipe, Error *e)
 {
-    for (int i = 0; i < s->params->thing_count; i++) {
-        s->shares += s->params->things[i].share;
-    }
     s->area = s->surface ? sum_areas(s->surface->mesh, s->params, e) : NULL;
     bool spaced = s->params->spacing > 0.0f;
     s->taken = spaced ? point_hash_new(s->params->spacing, e) : NULL;
     return (s->area || !s->surface) && (s->taken || !spaced) && draw_maps(s, recipe, e);
 }
 
-static bool search(const Search *s, ScatterPlaces *places, const Run *run, Error *e)
+static bool search(const Search *s, ThingPlaces *places, const Run *run, Error *e)
 {
     const ScatteringParams *params = s->params;
     uint64_t seed = random_key(s->seed, STREAM_PLACES);
@@ -347,7 +330,7 @@ static bool search(const Search *s, ScatterPlaces *places, const Run *run, Error
         uint64_t key = random_key(seed, (uint64_t)i);
         Spot spot;
         bool found = s->surface ? spot_on_surface(s, key, &spot) : spot_on_land(s, key, &spot);
-        int thing = choose_thing(s, key);
+        int thing = things_choose(&params->things, random_unit(random_key(key, STREAM_THING)));
         bool taken = false;
         if (!found || !is_allowed(s, &spot) || !is_in_patch(s, &spot, thing)) {
             continue;
@@ -362,33 +345,25 @@ static bool search(const Search *s, ScatterPlaces *places, const Run *run, Error
                 spot.normal = vec3(0, 1, 0);
             }
             places->thing[places->count] =
-                thing * params->variants + (int)(u * (float)params->variants);
+                thing * params->things.variants + (int)(u * (float)params->things.variants);
             places->place[places->count++] = stand(params, &spot);
         }
     }
     return true;
 }
 
-bool scatter_places_init(ScatterPlaces *places, const ScatteringParams *params,
-                         const Recipe *recipe, const Surroundings *around, Error *e)
+bool scatter_places_init(ThingPlaces *places, const ScatteringParams *params, const Recipe *recipe,
+                         const Surroundings *around, Error *e)
 {
-    *places = (ScatterPlaces){0};
     Search s = {
         .params = params, .around = around, .surface = recipe->surface, .seed = recipe->seed};
     s.land = recipe->land;
     s.by_depth = has_depth_condition(params);
     s.wet = recipe->land && recipe->land->water && !s.by_depth ? recipe->land : NULL;
-    places->place = memory_alloc(params->count, sizeof *places->place, e);
-    places->thing = places->place ? memory_alloc(params->count, sizeof *places->thing, e) : NULL;
-    bool done = places->thing && search_begin(&s, recipe, e) && search(&s, places, recipe->run, e);
+    bool done = thing_places_alloc(places, params->count, e) && search_begin(&s, recipe, e) &&
+                search(&s, places, recipe->run, e);
     point_hash_free(s.taken);
     where_free(&s.where);
     free(s.area);
     return done;
-}
-
-void scatter_places_free(ScatterPlaces *places)
-{
-    free(places->place);
-    free(places->thing);
 }

@@ -3,13 +3,7 @@
 #define RAMIFY_OBJECTS_SCATTER_SCATTER_H
 
 #include "land/where.h"
-#include "objects/kind.h"
-
-// One of the objects that are copied.
-typedef struct Thing {
-    SceneObject object; // without a name; first, for the offsets of the kinds' keys
-    float share;        // of the copies, relative to the other things'
-} Thing;
+#include "objects/common/things.h"
 
 typedef struct ScatteringParams {
     char *on; // name of the object whose surface they stand on; NULL = the land
@@ -27,27 +21,17 @@ typedef struct ScatteringParams {
     float sink;        // m below the surface, of a copy of scale 1
     bool in_water;     // in water, not outside of it
     bool afloat;       // with in_water: on its surface, not on its bed
-    int variants;      // of each thing
-    MapRange *where;   // conditions that all hold
+    Things things;
+    MapRange *where; // conditions that all hold
     int where_count;
-    Thing *things;
-    int thing_count;
 } ScatteringParams;
-
-// Where the copies stand.
-typedef struct ScatterPlaces {
-    Transform *place; // of each copy, from a thing at the origin
-    int *thing;       // of each copy: which one, thing * variants + variant
-    int64_t count;
-} ScatterPlaces;
 
 ScatteringParams scattering_params_default(void);
 
 // On the recipe's surface, or else on the land; outside of water or in it. Fewer than params->count
-// if there is no room for more. Clear with scatter_places_free, also on failure.
-bool scatter_places_init(ScatterPlaces *places, const ScatteringParams *params,
-                         const Recipe *recipe, const Surroundings *around, Error *e);
-void scatter_places_free(ScatterPlaces *places);
+// if there is no room for more. Clear with thing_places_free, also on failure.
+bool scatter_places_init(ThingPlaces *places, const ScatteringParams *params, const Recipe *recipe,
+                         const Surroundings *around, Error *e);
 
 // All copies: see recipe.h. Nothing grows, so grown is not used.
 bool scatter_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);

@@ -13,59 +13,11 @@ ScatteringParams scattering_params_default(void)
                               .scale = {0.7f, 1.2f},
                               .slope = {0.0f, 90.0f},
                               .altitude = {-1e6f, 1e6f},
-                              .variants = 3};
+                              .things.variants = 3};
 }
-
-// What stands alone can be copied: not land, nor what depends on other objects.
-static bool can_be_copied(const Kind *kind)
-{
-    return !kind->ground && !kind->heights && !kind->over && !kind->further_material &&
-           !kind->reads_scene;
-}
-
-static const Variant *thing_variant(int index)
-{
-    for (int i = 0; kind_at(i); i++) {
-        if (can_be_copied(kind_at(i)) && index-- == 0) {
-            return &kind_at(i)->variant;
-        }
-    }
-    return NULL;
-}
-
-static const Key THING_KEYS[] = {
-    {KEY_OF(Thing, share, "share", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
-     .doc = "Share of the copies, relative to the other things'."},
-    {0},
-};
-
-static void thing_defaults(void *out)
-{
-    *(Thing *)out = (Thing){.share = 1.0f};
-}
-
-static const Table THING_TABLE = {
-    .name = "thing",
-    .doc = "What is scattered: exactly one of the kinds below, as an object of the scene but "
-           "without a name, and the names of its materials. It stands on each place as it would "
-           "stand on the origin.",
-    .example = "objects:\n"
-               "  - name: stones\n"
-               "    scatter:\n"
-               "      count: 300\n"
-               "      things:\n"
-               "        - {share: 3, stone: {size: 0.12}}\n"
-               "        - {share: 1, tree: {species: hazel, height: 2}}\n",
-    .size = sizeof(Thing),
-    .keys = THING_KEYS,
-    .variant = thing_variant,
-    .variant_offset = offsetof(SceneObject, kind),
-    .defaults = thing_defaults};
 
 static const Key SCATTER_KEYS[] = {
-    {KEY_OF(ScatteringParams, things, "things", KEY_LIST), .flags = KEY_REQUIRED, .low = 1,
-     .count_offset = offsetof(ScatteringParams, thing_count), .count = 100, .table = &THING_TABLE,
-     .doc = "What is copied."},
+    THINGS_ROWS(ScatteringParams),
     {KEY_OF(ScatteringParams, on, "on", KEY_TEXT),
      .doc = "Name of the object on whose meshes the copies stand: a terrain, a shape, an imported "
             "mesh. Default: the ground of the scene, or level land at height 0."},
@@ -104,8 +56,7 @@ static const Key SCATTER_KEYS[] = {
      .doc = "With in_water: float on the water's surface, upright, as water lilies' leaves do, "
             "instead of standing on its bed. altitude is still that of the bed: it tells how deep "
             "the water may be."},
-    {KEY_OF(ScatteringParams, variants, "variants", KEY_INT), .low = 1, .high = 1000,
-     .doc = "Number of different individuals of each thing; all others are copies of them."},
+    VARIANTS_ROW(ScatteringParams),
     {0},
 };
 
