@@ -681,6 +681,42 @@ static void near_copies_are_limited(void **state)
     geometry_clear(&crowd);
 }
 
+// Copies of one tree differ in slenderness and lean: the axes keep to the bounds, and many come
+// near to them.
+static void copies_lean_and_stretch_within_bounds(void **state)
+{
+    (void)state;
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.count = 2000;
+    scatter.scale[0] = scatter.scale[1] = 0.5f;
+    scatter.stretch[0] = 0.8f;
+    scatter.stretch[1] = 1.4f;
+    scatter.tilt = 8.0f;
+    Run run = run_default();
+    Recipe recipe = {.seed = 4, .run = &run};
+    ThingPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    assert_int_equal(places.count, 2000);
+    float least = 9.0f, most = 0.0f, lean = 0.0f;
+    Vec3 sum = {0};
+    for (int64_t i = 0; i < places.count; i++) {
+        const Transform *t = &places.place[i];
+        Vec3 x = vec3(t->m[0][0], t->m[1][0], t->m[2][0]);
+        Vec3 y = vec3(t->m[0][1], t->m[1][1], t->m[2][1]);
+        assert_true(fabsf(vec3_length(x) - 0.5f) < 1e-5f && fabsf(vec3_dot(x, y)) < 1e-5f);
+        float stretch = vec3_length(y) / 0.5f;
+        least = fminf(least, stretch);
+        most = fmaxf(most, stretch);
+        lean = fmaxf(lean, acosf(fminf(y.y / vec3_length(y), 1.0f)) / RADIANS_PER_DEGREE);
+        sum = vec3_add(sum, vec3_normalize(y));
+    }
+    assert_true(least >= 0.799f && least < 0.81f && most <= 1.401f && most > 1.39f);
+    assert_true(lean <= 8.05f && lean > 7.9f);
+    sum = vec3_scale(sum, 1.0f / 2000.0f); // to all sides alike
+    assert_true(fabsf(sum.x) < 0.01f && fabsf(sum.z) < 0.01f);
+    thing_places_free(&places);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -701,6 +737,7 @@ int main(void)
         cmocka_unit_test(buds_do_not_enlarge_blossom),
         cmocka_unit_test(near_copies_keep_every_leaf),
         cmocka_unit_test(near_copies_are_limited),
+        cmocka_unit_test(copies_lean_and_stretch_within_bounds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

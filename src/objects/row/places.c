@@ -83,14 +83,11 @@ static Vec3 rise(const RowParams *params, const Footing *footing, Vec3 p, Vec3 d
     return vec3_normalize(level);
 }
 
-// Turns a vector about an axis of unit length.
 static Vec3 rotated(Vec3 v, Vec3 axis, float degrees)
 {
     float sine, cosine;
     exact_sincos(degrees * RADIANS_PER_DEGREE, &sine, &cosine);
-    Vec3 across = vec3_cross(axis, v);
-    float along = vec3_dot(axis, v) * (1.0f - cosine);
-    return vec3_madd(vec3_madd(vec3_scale(v, cosine), sine, across), along, axis);
+    return vec3_rotate(v, axis, cosine, sine);
 }
 
 static Transform stand(const RowParams *params, const Footing *footing, float distance,

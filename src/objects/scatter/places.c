@@ -23,7 +23,10 @@ enum {
     STREAM_PATCH = 8,
     STREAM_SIZE = 9,
     STREAM_TURN = 10,
-    STREAM_WHERE = 11
+    STREAM_WHERE = 11,
+    STREAM_TILT = 12,
+    STREAM_TILT_AZIMUTH = 13,
+    STREAM_STRETCH = 14
 };
 
 enum { TRIES = 40 }; // for each copy, at most
@@ -249,6 +252,18 @@ static bool take(const Search *s, const Spot *spot, bool *taken, Error *e)
     return !s->taken || !*taken || point_hash_add(s->taken, spot->p, e);
 }
 
+// Leans a direction to any side, at most by the tilt.
+static Vec3 leaning(const ScatteringParams *params, const Spot *spot, Vec3 up)
+{
+    float lean = random_range(random_key(spot->key, STREAM_TILT), 0.0f, params->tilt);
+    float azimuth = random_range(random_key(spot->key, STREAM_TILT_AZIMUTH), 0.0f, 2.0f * PI_F);
+    float sine, cosine;
+    exact_sincos(azimuth, &sine, &cosine);
+    Vec3 axis = vec3_rotate(vec3_perpendicular(up), up, cosine, sine);
+    exact_sincos(lean * RADIANS_PER_DEGREE, &sine, &cosine);
+    return vec3_rotate(up, axis, cosine, sine);
+}
+
 static Transform stand(const ScatteringParams *params, const Spot *spot)
 {
     float size =
@@ -258,9 +273,12 @@ static Transform stand(const ScatteringParams *params, const Spot *spot)
                  &cosine);
     Vec3 up = vec3_lerp(vec3(0, 1, 0), spot->normal, params->align);
     up = vec3_dot(up, up) > 1e-6f ? vec3_normalize(up) : spot->normal;
+    up = params->tilt > 0.0f ? leaning(params, spot, up) : up;
+    float stretch =
+        random_range(random_key(spot->key, STREAM_STRETCH), params->stretch[0], params->stretch[1]);
     Vec3 x = vec3_cross(up, vec3(sine, 0.0f, cosine));
     x = vec3_dot(x, x) > 1e-6f ? vec3_normalize(x) : vec3_perpendicular(up);
-    return transform_from_axes(vec3_scale(x, size), vec3_scale(up, size),
+    return transform_from_axes(vec3_scale(x, size), vec3_scale(up, size * stretch),
                                vec3_scale(vec3_cross(x, up), size),
                                vec3_madd(spot->p, -size * params->sink, up));
 }

@@ -15,6 +15,8 @@ typedef struct ScatteringParams {
     float clump_size;  // m, from patch to patch
     float spacing;     // m: least distance between two places; 0 = any
     float scale[2];    // least and largest size, relative to the thing's
+    float stretch[2];  // least and largest height, relative to that of its size
+    float tilt;        // degrees: most lean, to any side
     float slope[2];    // degrees from level
     float altitude[2]; // m
     float align;       // 0 = upright .. 1 = along the surface's normal

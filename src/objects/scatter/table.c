@@ -11,6 +11,7 @@ ScatteringParams scattering_params_default(void)
                               .clumping = 0.5f,
                               .clump_size = 4.0f,
                               .scale = {0.7f, 1.2f},
+                              .stretch = {1.0f, 1.0f},
                               .slope = {0.0f, 90.0f},
                               .altitude = {-1e6f, 1e6f},
                               .things.variants = 3};
@@ -37,6 +38,12 @@ static const Key SCATTER_KEYS[] = {
      .doc = "Minimum distance between two copies; 0 = none."},
     {KEY_OF(ScatteringParams, scale, "scale", KEY_VECTOR), .flags = KEY_ABOVE, .count = 2,
      .high = 1000, .doc = "Smallest and largest size of a copy, relative to the thing's."},
+    {KEY_OF(ScatteringParams, stretch, "stretch", KEY_VECTOR), .flags = KEY_ABOVE, .count = 2,
+     .high = 100,
+     .doc = "Least and greatest factor on a copy's height alone: [0.85, 1.2] makes slender and "
+            "stout trees of the same few."},
+    {KEY_OF(ScatteringParams, tilt, "tilt", KEY_FLOAT), .high = 90, .unit = "degrees",
+     .doc = "Greatest random lean, to any side."},
     {KEY_OF(ScatteringParams, slope, "slope", KEY_VECTOR), .count = 2, .high = 180,
      .unit = "degrees", .doc = "Least and greatest slope of the places: 0 = level, 90 = a wall."},
     {KEY_OF(ScatteringParams, altitude, "altitude", KEY_VECTOR), .count = 2, .low = -1e6,
@@ -71,6 +78,7 @@ static bool check_scatter(const Mapping *mapping, void *params)
 {
     const ScatteringParams *scatter = params;
     if (!check_range(mapping, "scale", scatter->scale) ||
+        !check_range(mapping, "stretch", scatter->stretch) ||
         !check_range(mapping, "slope", scatter->slope) ||
         !check_range(mapping, "altitude", scatter->altitude)) {
         return false;
