@@ -8,6 +8,7 @@
 #include "image/downsample.h"
 #include "image/highlights.h"
 #include "image/oidn.h"
+#include "image/sharpen.h"
 #include "ramify.h"
 #include "scene/place.h"
 
@@ -252,11 +253,14 @@ static bool write_developed(const char *file, const Scene *scene, const Image *d
 {
     bool reduced = scene->downsample > 1;
     Image *small = reduced ? image_downsample(display, scene->downsample, e) : NULL;
-    const Image *shown = reduced ? small : display;
+    const Image *sized = reduced ? small : display;
+    Image *sharp = sized && scene->sharpen > 0.0f ? image_sharpen(sized, scene->sharpen, e) : NULL;
+    const Image *shown = scene->sharpen > 0.0f ? sharp : sized;
     bool deep = scene->png_depth == 16 && file_name_ends(file, ".png");
     bool done = shown && (deep ? image_write_display16(file, shown, metadata, e)
                                : image_write_display(file, shown, metadata, e));
     image_free(small);
+    image_free(sharp);
     return done;
 }
 

@@ -129,6 +129,9 @@ static const Key FILM_KEYS[] = {
          "an image of 3840 x 2160 gives a PNG of 1920 x 1080, after denoising and view. Leaves "
          "and twigs keep their contrast, which the mean of their radiance would lose, and a "
          "fourth of the samples suffices. An EXR keeps the image's size."},
+    {KEY_OF(Scene, sharpen, "sharpen", KEY_FLOAT), .high = 5,
+     .doc = "Sharpening of the developed picture, as a camera does it: 0 = none, 0.5 = moderate, 1 "
+            "= strong. It raises the contrast of detail of a pixel or two, without halos."},
     {KEY_OF(Scene, denoise, "denoise", KEY_BOOL),
      .doc = "Denoise the developed image. An EXR file keeps its raw layers and gets the layer "
             "`denoised` beside them."},
