@@ -160,7 +160,8 @@ static Vec3 air_before_wall(bool roof, bool clear_day)
         add_mesh(world, quad_mesh(corner, vec3(40e3f, 0, 0), vec3(0, 0, -40e3f)), 0, 1);
     }
     Film *film = trace(world, 1, NULL);
-    Vec3 color = film->color[2 * film->width + 2];
+    // the two about the middle: one looks a little up, one down
+    Vec3 color = vec3_lerp(film->color[film->width + 2], film->color[2 * film->width + 2], 0.5f);
     film_free(film);
     world_free(world);
     return color;

@@ -1,24 +1,18 @@
 // The earth's atmosphere: light of the sun scattered by air (Rayleigh), aerosols (Mie) and absorbed
 // by ozone, in eight wavelength bands; single scattering integrated along the ray, further orders
-// by the isotropic approximation of Hillaire, "A Scalable and Production Ready Sky and Atmosphere
-// Rendering Technique", EGSR 2020. Lengths in km inside.
+// from a table (air_orders.h). Lengths in km inside.
 #ifndef RAMIFY_RENDER_SKY_ATMOSPHERE_H
 #define RAMIFY_RENDER_SKY_ATMOSPHERE_H
 
 #include "base/error.h"
 #include "base/run.h"
 #include "base/vec.h"
-
-enum { SPECTRUM_BANDS = 8 }; // 40 nm each, 380 to 700 nm
-
-typedef struct Spectrum {
-    float v[SPECTRUM_BANDS];
-} Spectrum;
+#include "render/sky/air_model.h"
 
 typedef struct Atmosphere Atmosphere;
 
 // turbidity: 1 = pure air, 2-3 clear, 6 hazy (Preetham et al. 1999); ground_albedo grey, 0..1;
-// altitude: of the scene's ground above the sea, m. Built in about 0.1 s by run->threads threads.
+// altitude: of the scene's ground above the sea, m. Built in about 0.3 s by run->threads threads.
 Atmosphere *atmosphere_new(float turbidity, float ground_albedo, float altitude, const Run *run,
                            Error *e);
 void atmosphere_free(Atmosphere *atmosphere); // NULL is fine

@@ -1,0 +1,85 @@
+#include "render/sky/air_glow.h"
+
+#define HIGHEST 60.0      // km: above it is hardly any air
+#define SUNKEN 0.25       // sine of the sun's lowest depression, below which nothing glows
+#define SUNKEN_PART 0.25f // of the entries, for the sun below the horizon
+
+double air_glow_radius(int height)
+{
+    double s = (double)height / (GLOW_HEIGHTS - 1);
+    return GROUND_RADIUS + fmax(1e-3, HIGHEST * s * s);
+}
+
+// Entries are denser where the sun is near the horizon.
+double air_glow_sun(int sun)
+{
+    const double part = (double)SUNKEN_PART;
+    double s = (double)sun / (GLOW_SUNS - 1);
+    double below = (part - s) / part, above = (s - part) / (1.0 - part);
+    return s < part ? -SUNKEN * below * below : above * above;
+}
+
+double air_tilt(int tilt, int tilts)
+{
+    double u = -1.0 + 2.0 * (tilt + 0.5) / tilts;
+    return u * fabs(u);
+}
+
+double air_turn(int turn, int turns)
+{
+    return (double)PI_F * (turn + 0.5) / turns;
+}
+
+// An entry and the weight of the next.
+typedef struct Between {
+    int first;
+    float share;
+} Between;
+
+static Between between(float x, int count)
+{
+    x = clampf(x, 0.0f, (float)(count - 1));
+    int first = x < (float)(count - 1) ? (int)x : count - 2;
+    return (Between){first, x - (float)first};
+}
+
+static Between height_of(double r)
+{
+    float s = sqrtf(fmaxf((float)((r - GROUND_RADIUS) / HIGHEST), 0.0f));
+    return between(s * (float)(GLOW_HEIGHTS - 1), GLOW_HEIGHTS);
+}
+
+static Between sun_of(double mu_sun)
+{
+    float m = (float)mu_sun;
+    float s = m < 0.0f ? SUNKEN_PART * (1.0f - sqrtf(-m / (float)SUNKEN))
+                       : SUNKEN_PART + (1.0f - SUNKEN_PART) * sqrtf(m);
+    return between(s * (float)(GLOW_SUNS - 1), GLOW_SUNS);
+}
+
+static Between tilt_of(double mu)
+{
+    float u = mu < 0.0 ? -sqrtf((float)-mu) : sqrtf((float)mu);
+    return between(0.5f * (u + 1.0f) * GLOW_TILTS - 0.5f, GLOW_TILTS);
+}
+
+GlowPair air_glow_at(const AirGlow *glow, double r, double mu_sun, double mu, float turn)
+{
+    Between h = height_of(r), s = sun_of(mu_sun), m = tilt_of(mu);
+    Between t = between(turn / PI_F * GLOW_TURNS - 0.5f, GLOW_TURNS);
+    GlowPair sum = {{{0.0f}}, {{0.0f}}};
+    for (int corner = 0; corner < 16; corner++) {
+        int dh = corner & 1, ds = corner >> 1 & 1, dm = corner >> 2 & 1, dt = corner >> 3;
+        float weight = (dh ? h.share : 1.0f - h.share) * (ds ? s.share : 1.0f - s.share) *
+                       (dm ? m.share : 1.0f - m.share) * (dt ? t.share : 1.0f - t.share);
+        if (weight < 1e-6f) {
+            continue; // directions of the table's own
+        }
+        const GlowPair *pair = &glow->at[h.first + dh][s.first + ds][m.first + dm][t.first + dt];
+        for (int i = 0; i < SPECTRUM_BANDS; i++) {
+            sum.air.v[i] += weight * pair->air.v[i];
+            sum.dust.v[i] += weight * pair->dust.v[i];
+        }
+    }
+    return sum;
+}
