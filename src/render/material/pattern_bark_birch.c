@@ -19,8 +19,9 @@ static Mark mark_at(const StemPlace *place, float around, float along, uint32_t 
 {
     Vec3 q = stem_lookup(place, around, along);
     CellPoint cell = noise_cells_on(q, stem_out(place), seed);
-    Vec3 middle = vec3_add(q, cell.point);
-    float angle = atan2f(middle.x * q.y - middle.y * q.x, middle.x * q.x + middle.y * q.y);
+    Vec3 middle = vec3_madd(place->p, around, cell.point); // x, y: about the axis
+    float angle = atan2f(middle.x * place->p.y - middle.y * place->p.x,
+                         middle.x * place->p.x + middle.y * place->p.y);
     return (Mark){.u = angle * place->radius,
                   .v = -along * cell.point.z,
                   .guard = smoothstepf(0.0f, 0.05f, cell.border),

@@ -43,7 +43,7 @@ static BarkLook old_plates(const Material *m, const StemPlace *place, float scal
     // The outermost scales weather to grey; layers that a flake has left bare are warm.
     float bare = clampf(1.1f - p.rise, 0.0f, 1.0f) * (0.35f + 0.65f * p.layer);
     bare = fmaxf(bare, seen * smoothstepf(0.80f, 0.97f, tone) * 0.6f);
-    float warm = clampf(0.04f + 0.55f * bare + 0.18f * stain + 0.16f * (p.own - 0.5f), 0.0f, 0.7f);
+    float warm = clampf(0.02f + 0.42f * bare + 0.15f * stain + 0.14f * (p.own - 0.5f), 0.0f, 0.55f);
     Vec3 color = vec3_lerp(grey, vec3_scale(m->color2, 0.80f * value), warm);
     color = vec3_scale(color, 1.0f - 0.38f * p.edge);
     Vec3 deep = vec3_scale(vec3_lerp(m->color, m->color2, 0.40f), 0.10f);

@@ -2,6 +2,8 @@
 
 #include "render/material/pattern_noise.h"
 
+#include <stddef.h>
+
 // Unbends the stem: a point on a cylinder of the stem's radius, found from the direction of the
 // normal, so that no seam shows where u closes or is uneven. along: the way in which v grows.
 static StemPlace unbend(const SurfacePoint *point, Vec3 n, Vec3 along)
@@ -61,6 +63,14 @@ StemPlace stem_place(const SurfacePoint *point, float twist)
         place.along_u = turned(place.along_u, c, s);
     }
     return place;
+}
+
+void stem_drift(StemPlace *place, Vec3 position)
+{
+    const float wavelength = 30.0f; // m
+    Vec3 p = vec3(position.x / wavelength, 0.37f, position.z / wavelength);
+    place->drift = vec3(2.0f * noise_solid(p, 92, NULL), 2.0f * noise_solid(p, 93, NULL),
+                        6.0f * noise_solid(p, 94, NULL));
 }
 
 float stem_root(const StemPlace *place)

@@ -12,6 +12,7 @@ typedef struct StemPlace {
     float radius; // m; that of a thick trunk if unknown
     float height; // m above the object's origin
     float twist;  // rad per metre along the stem, that p turns
+    Vec3 drift;   // m: added to p in lookups, so that no two trees have the same marks
 } StemPlace;
 
 // twist: degrees per metre.
@@ -28,8 +29,13 @@ typedef struct BarkLook {
 // The position stretched: units of `around` metres around the stem and `along` metres along it.
 static inline Vec3 stem_lookup(const StemPlace *place, float around, float along)
 {
-    return vec3(place->p.x / around, place->p.y / around, place->p.z / along);
+    return vec3((place->p.x + place->drift.x) / around, (place->p.y + place->drift.y) / around,
+                (place->p.z + place->drift.z) / along);
 }
+
+// Sets the drift of the place in the object's space. It changes so slowly that marks keep their
+// form.
+void stem_drift(StemPlace *place, Vec3 position);
 
 // The unit direction out of the stem, at such places; stretched lookups keep it.
 static inline Vec3 stem_out(const StemPlace *place)
