@@ -182,7 +182,8 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
             "and ash, on thick branches; with a pattern_scale below 0.02, as of a miniature tree, "
-            "on thinner ones, too; plates: thick scaly plates, on thinner stems thin flakes of "
+            "on thinner ones, too; plates: long thick plates that flake in layers, on thinner "
+            "stems thin flakes of "
             "color2, as of "
             "pine; birch: white, with dark lenticels across, peeling, and black (color2) diamonds; "
             "smooth: a skin with faint wrinkles and scars, as of beech; fibrous: long strips, as "
@@ -228,6 +229,12 @@ static const Key MATERIAL_KEYS[] = {
             "displaced."},
     {KEY_OF(Material, twist, "twist", KEY_FLOAT), .kinds = PATTERNED, .low = -3600, .high = 3600,
      .unit = "degrees/m", .doc = "Pattern bark: turn of the grain about the stem."},
+    {KEY_OF(Material, bark_height, "bark_height", KEY_FLOAT), .kinds = PATTERNED, .high = 100,
+     .unit = "m",
+     .doc =
+         "Bark plates and birch: how far old bark reaches up from the foot, along the wood: thick "
+         "plates, with thin flakes above; the black cork of a birch, with diamonds above. 0 = as "
+         "far as the stem is thick enough."},
     {KEY_OF(Material, veins, "veins", KEY_FLOAT), .kinds = PATTERNED, .high = 60,
      .doc = "Pattern leaf: side veins on each half of a blade, lobe or leaflet; 0 = veins that run "
             "along it, as of grasses, palms, ginkgo."},

@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "render/material/bsdf.h"
 #include "render/material/pattern_noise.h"
+#include "render/material/pattern_stem.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -120,11 +121,12 @@ static PatternShade shade_of(const Material *m, const SurfacePoint *p)
 }
 
 // A grown mesh's u runs both ways round and meets itself twice: neither colour nor bump may show
-// it.
+// it, but where a crease of the bark just happens to lie.
 static void has_no_seam(BarkKind kind)
 {
     Material m = bark();
     m.bark = kind;
+    int creases = 0;
     for (int i = 0; i < 400; i++) {
         float along = 0.013f * (float)i;
         for (int seam = 0; seam < 2; seam++) {
@@ -132,9 +134,10 @@ static void has_no_seam(BarkKind kind)
             SurfacePoint a = trunk_point(angle, along, 0.4f), b = trunk_point(-angle, along, 0.4f);
             PatternShade left = shade_of(&m, &a), right = shade_of(&m, &b);
             assert_true(vec3_distance(left.color, right.color) < 0.01f);
-            assert_true(vec3_distance(left.normal, right.normal) < 0.05f);
+            creases += vec3_distance(left.normal, right.normal) > 0.05f;
         }
     }
+    assert_true(creases <= 1);
 }
 
 static void test_bark_has_no_seam(void **state)
@@ -247,6 +250,148 @@ static void test_bark_kinds(void **state)
         assert_true(fabs(thick.around / trunk.around - 1.0) < 0.25);
         assert_true(fabs(thick.along / trunk.along - 1.0) < 0.25);
     }
+}
+
+// Mean colour of a stem of this radius between two heights.
+static Vec3 mean_between(const Material *m, float radius, float low, float high)
+{
+    Vec3 sum = {0};
+    const int count = 2000;
+    for (int i = 0; i < count; i++) {
+        SurfacePoint p = trunk_point(random_range(random_key(3, (uint64_t)i), -3.1f, 3.1f),
+                                     random_range(random_key(4, (uint64_t)i), low, high), radius);
+        sum = vec3_add(sum, shade_of(m, &p).color);
+    }
+    return vec3_scale(sum, 1.0f / (float)count);
+}
+
+static Material pine_bark(void)
+{
+    Material m = bark();
+    m.bark = BARK_PLATES;
+    m.color = vec3(0.16f, 0.135f, 0.115f);
+    m.color2 = vec3(0.44f, 0.2f, 0.08f);
+    return m;
+}
+
+// Plates are grey-brown, the papery bark above bark_height is orange; without it plates go on.
+static void test_old_bark_ends(void **state)
+{
+    (void)state;
+    Material m = pine_bark();
+    Vec3 low = mean_between(&m, 0.25f, 0.5f, 2.0f), high = mean_between(&m, 0.25f, 5.0f, 9.0f);
+    assert_true(fabsf(high.x / high.z - low.x / low.z) < 0.2f * low.x / low.z);
+    m.bark_height = 3.0f;
+    low = mean_between(&m, 0.25f, 0.5f, 2.0f);
+    high = mean_between(&m, 0.25f, 5.0f, 9.0f);
+    assert_true(high.x / high.z > 1.4f * low.x / low.z && high.x > 1.3f * low.x);
+}
+
+// A thin root is no papery limb: it is as dull as soil. As thin a limb far up is orange.
+static void test_roots_are_dull(void **state)
+{
+    (void)state;
+    Material m = pine_bark();
+    Vec3 root = {0}, limb = {0};
+    for (int i = 0; i < 500; i++) {
+        SurfacePoint p = trunk_point(0.5f, 0.5f + 0.001f * (float)i, 0.05f);
+        p.normal = p.geometric_normal = vec3(0, 1, 0);
+        p.tangent_u = vec3(0, 0, 1);
+        p.tangent_v = vec3(1, 0, 0);
+        root = vec3_add(root, shade_of(&m, &p).color);
+        p.uv.y += 6.0f;
+        limb = vec3_add(limb, shade_of(&m, &p).color);
+    }
+    assert_true(limb.x / limb.z > 1.8f * root.x / root.z && limb.x > 2.0f * root.x);
+}
+
+static Material birch_bark(void)
+{
+    Material m = bark();
+    m.bark = BARK_BIRCH;
+    m.color = vec3(0.66f, 0.645f, 0.61f);
+    m.scars = 0.5f;
+    return m;
+}
+
+// The foot of an old birch is black, a young one's is not; bark_height tells how far it is.
+static void test_birch_foot(void **state)
+{
+    (void)state;
+    Material m = birch_bark();
+    float foot = mean_between(&m, 0.15f, 0.15f, 0.35f).y, above = mean_between(&m, 0.15f, 4, 8).y;
+    assert_true(foot < 0.35f * above && above > 0.3f);
+    assert_true(mean_between(&m, 0.03f, 0.15f, 0.35f).y > 0.6f * above);
+    m.bark_height = 3.0f;
+    assert_true(mean_between(&m, 0.15f, 0.8f, 1.2f).y < 0.45f * above);
+}
+
+// Marks lie on one side of the stem, even if the middle of their cell is near its axis.
+static void test_birch_has_no_rings(void **state)
+{
+    (void)state;
+    Material m = birch_bark();
+    for (int i = 0; i < 1000; i++) {
+        float white = 0.0f;
+        for (int k = 0; k < 16; k++) {
+            SurfacePoint p = trunk_point(0.39f * (float)k - 3.1f, 3.0f + 0.011f * (float)i, 0.12f);
+            white = fmaxf(white, shade_of(&m, &p).color.y);
+        }
+        assert_true(white > 0.25f);
+    }
+}
+
+// Two birches have marks at different heights; along one stem they keep their form: the drift
+// changes by less than half of the way.
+static void test_birches_differ(void **state)
+{
+    (void)state;
+    Material m = birch_bark();
+    double both = 0.0, one = 0.0;
+    for (int i = 0; i < 3000; i++) {
+        SurfacePoint p = trunk_point(0.4f, 3.0f + 0.003f * (float)i, 0.15f), q = p;
+        q.object_position = vec3_add(q.object_position, vec3(7.0f, 0.0f, -5.0f));
+        double a = (double)shade_of(&m, &p).color.y - 0.5,
+               b = (double)shade_of(&m, &q).color.y - 0.5;
+        both += fabs(a - b);
+        one += fabs(a);
+        StemPlace here = {0}, beside = {0};
+        Vec3 at = random_point((uint64_t)i, 200.0f);
+        stem_drift(&here, at);
+        stem_drift(&beside, vec3_add(at, vec3(0.07f, 0.3f, 0.07f)));
+        assert_true(vec3_distance(here.drift, beside.drift) < 0.5f * 0.1f);
+    }
+    assert_true(both > 0.15 * one);
+}
+
+// The slope of plates is that of their height, but for what bends their borders.
+static void test_plates_slope(void **state)
+{
+    (void)state;
+    double both = 0.0, first = 0.0, second = 0.0;
+    for (int i = 0; i < 20000; i++) {
+        float along = random_range(random_key(5, (uint64_t)i), 0.0f, 20.0f);
+        float angle = random_range(random_key(6, (uint64_t)i), -3.0f, 3.0f), step = 2e-4f;
+        float height[2];
+        SurfacePoint p = trunk_point(angle, along, 0.3f);
+        StemPlace place = stem_place(&p, 0.0f);
+        BarkLook middle = {0};
+        bark_add_plates(&middle, &place, 0.09f, 0.3f, vec3(0, 0, 0), 41);
+        for (int k = 0; k < 2; k++) {
+            Vec3 at = vec3_madd(place.p, k ? step : -step, place.along_u);
+            StemPlace aside = place;
+            aside.p = at;
+            BarkLook look = {0};
+            bark_add_plates(&look, &aside, 0.09f, 0.3f, vec3(0, 0, 0), 41);
+            height[k] = look.height;
+        }
+        double measured = fmin(200.0, fmax(-200.0, (double)((height[1] - height[0]) / (2 * step))));
+        double told = fmin(200.0, fmax(-200.0, (double)middle.slope_u));
+        both += measured * told;
+        first += measured * measured;
+        second += told * told;
+    }
+    assert_true(both / sqrt(first * second) > 0.8);
 }
 
 static void without_branch(BarkKind kind)
@@ -590,6 +735,12 @@ int main(void)
         cmocka_unit_test(test_bark_scale),
         cmocka_unit_test(test_miniature_bark),
         cmocka_unit_test(test_bark_kinds),
+        cmocka_unit_test(test_old_bark_ends),
+        cmocka_unit_test(test_roots_are_dull),
+        cmocka_unit_test(test_birch_foot),
+        cmocka_unit_test(test_birch_has_no_rings),
+        cmocka_unit_test(test_birches_differ),
+        cmocka_unit_test(test_plates_slope),
         cmocka_unit_test(test_bark_without_branch),
         cmocka_unit_test(test_ground),
         cmocka_unit_test(test_leaf_veins),

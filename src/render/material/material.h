@@ -137,21 +137,22 @@ typedef struct Material {
     float pattern_depth; // m: bump height; 0 = none
     Displacement displacement;
     // PATTERN_BARK, 0..1 each:
-    float moss, lichen;          // how much of it grows there
-    float scars;                 // how many shed limbs have left theirs
-    float ribs;                  // depth of the stem's ribs: 1 = half of its radius
-    float hollows;               // how many holes rot has left
-    float twist;                 // degrees per metre, of the grain about the stem
-    float veins;                 // PATTERN_LEAF: side veins on each half; 0 = veins along the blade
-    float snow_line, grass_line; // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
-                                 // and below which they lie; 0 = none
-    ColorStop *colors;           // PATTERN_ALTITUDE: borrowed, `at` ascends; NULL = from color to
-    int color_count;             // color2
-    float variation;             // 0..1: how far hue and value differ from instance to instance
-    const char *texture;         // file that multiplies color, by uv; NULL = none; borrowed
-    const char *alpha_texture;   // NULL = opaque; borrowed
-    const char *normal_texture;  // tangent-space normals, green along v; NULL = none; borrowed
-    const char *roughness_texture;     // red multiplies roughness; NULL = none; borrowed
+    float moss, lichen; // how much of it grows there
+    float scars;        // how many shed limbs have left theirs
+    float ribs;         // depth of the stem's ribs: 1 = half of its radius
+    float hollows;      // how many holes rot has left
+    float twist;        // degrees per metre, of the grain about the stem
+    float bark_height;  // m along the wood up to which old bark reaches; 0 = by thickness alone
+    float veins;        // PATTERN_LEAF: side veins on each half; 0 = veins along the blade
+    float snow_line, grass_line;   // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
+                                   // and below which they lie; 0 = none
+    ColorStop *colors;             // PATTERN_ALTITUDE: borrowed, `at` ascends; NULL = from color to
+    int color_count;               // color2
+    float variation;               // 0..1: how far hue and value differ from instance to instance
+    const char *texture;           // file that multiplies color, by uv; NULL = none; borrowed
+    const char *alpha_texture;     // NULL = opaque; borrowed
+    const char *normal_texture;    // tangent-space normals, green along v; NULL = none; borrowed
+    const char *roughness_texture; // red multiplies roughness; NULL = none; borrowed
     const char *transmittance_texture; // multiplies transmittance; NULL = none; borrowed
     const char *displacement_texture;  // red is the height; NULL = none; borrowed
     MaterialLayer *layers; // of MATERIAL_DIFFUSE and MATERIAL_PRINCIPLED: on it, from the lowest to

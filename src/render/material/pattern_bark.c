@@ -231,6 +231,16 @@ static BarkSurface furrowed_bark(const Material *m, const SurfacePoint *point,
     return bark;
 }
 
+// Where the bark is looked up. Kinds with marks that one knows again drift.
+static StemPlace place_of(const Material *m, const SurfacePoint *point)
+{
+    StemPlace place = stem_place(point, m->twist);
+    if (m->bark == BARK_PLATES || m->bark == BARK_BIRCH) {
+        stem_drift(&place, point->object_position);
+    }
+    return place;
+}
+
 static BarkSurface bark_at(const Material *m, const SurfacePoint *point, const StemPlace *place,
                            Vec3 own)
 {
@@ -245,7 +255,7 @@ static BarkSurface bark_at(const Material *m, const SurfacePoint *point, const S
 
 void pattern_bark(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    StemPlace place = stem_place(point, m->twist);
+    StemPlace place = place_of(m, point);
     BarkSurface bark = bark_at(m, point, &place, shade->color);
     Vec3 slope = vec3_madd(vec3_scale(place.u, bark.slope_u), bark.slope_v, place.v);
     shade->color = bark.color;
@@ -254,7 +264,7 @@ void pattern_bark(const Material *m, const SurfacePoint *point, PatternShade *sh
 
 float pattern_bark_height(const Material *m, const SurfacePoint *point)
 {
-    StemPlace place = stem_place(point, m->twist);
+    StemPlace place = place_of(m, point);
     // On thin branches bumps stand for the rest.
     float most = 0.25f * place.radius;
     BarkSurface bark = bark_at(m, point, &place, m->color);

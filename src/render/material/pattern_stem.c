@@ -1,5 +1,9 @@
 #include "render/material/pattern_stem.h"
 
+#include "render/material/pattern_noise.h"
+
+#include <stddef.h>
+
 // Unbends the stem: a point on a cylinder of the stem's radius, found from the direction of the
 // normal, so that no seam shows where u closes or is uneven. along: the way in which v grows.
 static StemPlace unbend(const SurfacePoint *point, Vec3 n, Vec3 along)
@@ -59,6 +63,28 @@ StemPlace stem_place(const SurfacePoint *point, float twist)
         place.along_u = turned(place.along_u, c, s);
     }
     return place;
+}
+
+void stem_drift(StemPlace *place, Vec3 position)
+{
+    const float wavelength = 30.0f; // m
+    Vec3 p = vec3(position.x / wavelength, 0.37f, position.z / wavelength);
+    place->drift = vec3(2.0f * noise_solid(p, 92, NULL), 2.0f * noise_solid(p, 93, NULL),
+                        6.0f * noise_solid(p, 94, NULL));
+}
+
+float stem_root(const StemPlace *place)
+{
+    return smoothstepf(0.55f, 0.2f, place->v.y) * smoothstepf(2.2f, 1.2f, place->p.z);
+}
+
+Vec3 stem_earth(const StemPlace *place, Vec3 color)
+{
+    float splash = noise_fractal(stem_lookup(place, 0.09f, 0.09f), 3, 91);
+    float foot = smoothstepf(0.16f, 0.0f, place->p.z + 0.10f * splash);
+    float earth = fmaxf(0.6f * foot, 0.75f * stem_root(place)) * (0.85f + 0.3f * splash);
+    Vec3 soil = vec3_scale(vec3(0.080f, 0.062f, 0.044f), 1.0f + 0.4f * splash);
+    return vec3_lerp(color, soil, clampf(earth, 0.0f, 1.0f));
 }
 
 void stem_add_relief(BarkLook *look, const StemPlace *place, float height, float scale,

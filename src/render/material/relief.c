@@ -70,6 +70,7 @@ uint64_t relief_key(const Material *m)
                             m->ribs,
                             m->hollows,
                             m->twist,
+                            m->bark_height,
                             m->displacement_depth,
                             m->texture_scale,
                             (float)m->displacement,
