@@ -10,6 +10,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -469,6 +470,28 @@ static void test_stone_moss(void **state)
     assert_true(greener[2] < 0.2 * greener[1]);
 }
 
+// A mat of moss has a relief of its own, also where the stone has none and is not displaced.
+static void test_moss_is_no_paint(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_STONE;
+    m.color = m.color2 = vec3_splat(0.2f);
+    m.pattern_depth = 0.0f;
+    double tilted[2] = {0};
+    for (int k = 0; k < 2; k++) {
+        m.moss = k == 0 ? 0.0f : 0.85f;
+        for (uint64_t i = 0; i < 2000; i++) {
+            SurfacePoint point = on_stone(random_point(i, 10.0f), 0.006f);
+            PatternShade shade = {.color = m.color, .normal = point.normal};
+            pattern_apply(&m, &point, &shade);
+            tilted[k] += (double)(shade.normal.y < 0.97f) / 2000.0; // 14 degrees
+        }
+    }
+    printf("    tilted: %.3f of bare stone, %.3f of mossy stone\n", tilted[0], tilted[1]);
+    assert_true(tilted[0] == 0.0 && tilted[1] > 0.2);
+}
+
 // Stones lie before the mortar between them, on all sides of a wall, and differ in tone.
 static void test_masonry(void **state)
 {
@@ -598,6 +621,7 @@ int main(void)
         cmocka_unit_test(test_variation),
         cmocka_unit_test(test_stone),
         cmocka_unit_test(test_stone_moss),
+        cmocka_unit_test(test_moss_is_no_paint),
         cmocka_unit_test(test_masonry),
         cmocka_unit_test(test_dressed_stone),
         cmocka_unit_test(test_noise_pattern),

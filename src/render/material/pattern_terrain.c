@@ -5,6 +5,7 @@
 #include "render/material/pattern.h"
 #include "render/material/pattern_beds.h"
 #include "render/material/pattern_crags.h"
+#include "render/material/pattern_damp.h"
 #include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
 #include "render/material/pattern_shore.h"
@@ -164,6 +165,7 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
                      pattern_mountain_blocks(m), MOUNTAIN_BEDS, 0.7f);
     Ground g = face.ground;
     stain(point, 0.1f * scale, upright, &g.color);
+    g = pattern_damp(m->moss, point, &face.crags, upright, g);
     upright += 0.3f * face.crags.ledge;
     float loose = smoothstepf(0.70f, 0.80f, upright + 0.07f * ragged);
     Ground other = scree(m, point, shade->color, scale);
