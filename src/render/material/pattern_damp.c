@@ -49,7 +49,7 @@ Ground pattern_damp(float amount, const SurfacePoint *point, const Crags *crags,
         return rock;
     }
     PatternOctaves cushion = pattern_octaves(point, CUSHION, 3, 0.5f, 1.0f, SEED_CUSHION);
-    Vec3 color = vec3_scale(moss.color, clampf(0.85f + 0.6f * cushion.value, 0.4f, 1.4f));
+    Vec3 color = vec3_scale(moss.color, clampf(0.7f + 0.5f * cushion.value, 0.3f, 1.2f));
     Vec3 dry = vec3_scale(vec3(0.105f, 0.082f, 0.034f), 0.7f + 3.0f * moss.color.y);
     color = vec3_lerp(color, dry, 0.5f * smoothstepf(0.05f, 0.5f, cushion.value - broad));
     Ground mat = {.color = color};

@@ -104,7 +104,7 @@ static Overgrowth moss_of(const Material *m, const SurfacePoint *point, Vec3 p, 
     float dry = smoothstepf(0.0f, 0.5f, broad + 0.5f * rim - 0.25f * cushion);
     Vec3 straw = vec3_scale(vec3(0.105f, 0.082f, 0.034f), 0.7f + moss.color.y * 3.0f);
     moss.color = vec3_lerp(moss.color, straw, 0.55f * dry);
-    moss.color = vec3_scale(moss.color, clampf(0.85f + 0.75f * cushion, 0.35f, 1.5f));
+    moss.color = vec3_scale(moss.color, clampf(0.68f + 0.6f * cushion, 0.28f, 1.2f));
     return moss;
 }
 
