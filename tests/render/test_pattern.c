@@ -470,6 +470,32 @@ static void test_stone_moss(void **state)
     assert_true(greener[2] < 0.2 * greener[1]);
 }
 
+// The normals of a karst wall turn across it, from flute to flute, more than down it.
+static void test_karst_is_fluted(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_KARST;
+    m.pattern_depth = 1.0f;
+    double turned[2] = {0};
+    for (uint64_t i = 0; i < 4000; i++) {
+        Vec3 p = random_point(i, 200.0f), n[3];
+        for (int k = 0; k < 3; k++) {
+            Vec3 at = k == 0 ? p : vec3_add(p, k == 1 ? vec3(2, 0, 0) : vec3(0, 2, 0));
+            SurfacePoint point = on_stone(at, 0.6f);
+            point.normal = point.geometric_normal = vec3(0, 0, 1);
+            point.site = (Vec2){0.1f, 0.0f}; // 100 m above the plain
+            PatternShade shade = {.color = m.color, .normal = point.normal};
+            pattern_apply(&m, &point, &shade);
+            n[k] = shade.normal;
+        }
+        turned[0] += (double)fabsf(n[1].x - n[0].x) / 4000.0;
+        turned[1] += (double)fabsf(n[2].x - n[0].x) / 4000.0;
+    }
+    printf("    turned by %.3f across, by %.3f down\n", turned[0], turned[1]);
+    assert_true(turned[0] > 1.9 * turned[1]);
+}
+
 // A mat of moss has a relief of its own, also where the stone has none and is not displaced.
 static void test_moss_is_no_paint(void **state)
 {
@@ -621,6 +647,7 @@ int main(void)
         cmocka_unit_test(test_variation),
         cmocka_unit_test(test_stone),
         cmocka_unit_test(test_stone_moss),
+        cmocka_unit_test(test_karst_is_fluted),
         cmocka_unit_test(test_moss_is_no_paint),
         cmocka_unit_test(test_masonry),
         cmocka_unit_test(test_dressed_stone),
