@@ -214,9 +214,9 @@ static const Key MATERIAL_KEYS[] = {
             "sees the relief; copies of an object keep bumps."},
     {KEY_OF(Material, moss, "moss", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Patterns bark, stone, masonry and dressed: how much moss grows on it: at the foot, on "
-            "sides "
-            "that face up "
-            "or north (-z), in furrows and joints first."},
+            "sides that face up or north (-z), in furrows and joints first. Pattern mountain: how "
+            "damp its faces are: moss in cracks, on ledges and where water seeps, algae, rust and "
+            "lime in streaks."},
     {KEY_OF(Material, lichen, "lichen", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Patterns bark, stone, masonry and dressed: how much lichen grows on it."},
     {KEY_OF(Material, scars, "scars", KEY_FLOAT), .kinds = PATTERNED, .high = 1,

@@ -18,6 +18,11 @@ static Vec2 random_place(uint64_t i)
                   random_range(random_key(71, 2 * i + 1), -400.0f, 400.0f)};
 }
 
+static float lace(float cover, Vec2 at, float width)
+{
+    return foam_share(cover, (FoamPlace){at, at}, width);
+}
+
 static void mean_is_the_cover(void **state)
 {
     (void)state;
@@ -28,15 +33,15 @@ static void mean_is_the_cover(void **state)
         for (size_t w = 0; w < sizeof width / sizeof width[0]; w++) {
             double sum = 0.0;
             for (uint64_t i = 0; i < PLACES; i++) {
-                sum += (double)foam_share(cover[c], random_place(i), width[w]);
+                sum += (double)lace(cover[c], random_place(i), width[w]);
             }
             double mean = sum / PLACES, want = (double)cover[c];
             printf("    cover %.2f, pixel %4.1f m: mean %.4f\n", want, (double)width[w], mean);
             assert_true(fabs(mean - want) < 0.05 * want + 0.01);
         }
     }
-    assert_true(foam_share(0.0f, random_place(1), 0.0f) == 0.0f);
-    assert_true(foam_share(1.0f, random_place(1), 0.0f) == 1.0f);
+    assert_true(lace(0.0f, random_place(1), 0.0f) == 0.0f);
+    assert_true(lace(1.0f, random_place(1), 0.0f) == 1.0f);
 }
 
 static void grows_with_the_cover_without_steps(void **state)
@@ -48,7 +53,7 @@ static void grows_with_the_cover_without_steps(void **state)
         Vec2 at = random_place(i);
         float last = 0.0f;
         for (int k = 1; k <= STEPS; k++) {
-            float share = foam_share((float)k / STEPS, at, 0.02f);
+            float share = lace((float)k / STEPS, at, 0.02f);
             assert_true(share >= last - 1e-5f && share <= 1.0f);
             most = fmaxf(most, share - last);
             last = share;
@@ -66,7 +71,7 @@ static void edges_are_soft(void **state)
     double most = 0.0;
     for (uint64_t i = 0; i < PLACES; i++) {
         Vec2 at = random_place(i), near = {at.x + 0.0001f, at.y};
-        double step = fabs((double)(foam_share(0.3f, at, 0.0f) - foam_share(0.3f, near, 0.0f)));
+        double step = fabs((double)(lace(0.3f, at, 0.0f) - lace(0.3f, near, 0.0f)));
         most = step > most ? step : most;
     }
     printf("    steepest edge: %.3f in 0.1 mm\n", most);
@@ -84,9 +89,9 @@ static double misses(float width, double *spread)
         for (int k = 0; k < SIDE * SIDE; k++) {
             Vec2 p = {at.x + width * ((float)(k % SIDE) / SIDE - 0.5f),
                       at.y + width * ((float)(k / SIDE) / SIDE - 0.5f)};
-            sum += (double)foam_share(0.3f, p, 0.0f);
+            sum += (double)lace(0.3f, p, 0.0f);
         }
-        double mean = sum / (SIDE * SIDE), off = (double)foam_share(0.3f, at, width) - mean;
+        double mean = sum / (SIDE * SIDE), off = (double)lace(0.3f, at, width) - mean;
         squares += off * off;
         variance += (mean - 0.3) * (mean - 0.3);
     }
@@ -107,13 +112,50 @@ static void wide_pixels_show_the_mean(void **state)
     }
 }
 
+// Eddies keep areas (the determinant of their map is 1), have no seams, and turn some places far.
+static void eddies_keep_areas(void **state)
+{
+    (void)state;
+    enum { PLACES = 20000 };
+    const float step = 0.002f, spacing = 3.0f;
+    int off = 0, far = 0;
+    for (uint64_t i = 0; i < PLACES; i++) {
+        Vec2 at = random_place(i), x = {at.x + step, at.y}, y = {at.x, at.y + step};
+        Vec2 a = foam_stirred(at, spacing, 6.0f, 5), b = foam_stirred(x, spacing, 6.0f, 5),
+             c = foam_stirred(y, spacing, 6.0f, 5);
+        float ux = (b.x - a.x) / step, uy = (b.y - a.y) / step;
+        float vx = (c.x - a.x) / step, vy = (c.y - a.y) / step;
+        assert_true(hypotf(ux, uy) < 25.0f && hypotf(vx, vy) < 25.0f); // no seam
+        off += fabsf(ux * vy - uy * vx - 1.0f) > 0.25f;
+        far += hypotf(a.x - at.x, a.y - at.y) > 0.3f * spacing;
+    }
+    printf("    %.2f %% of areas differ, %.1f %% are moved far\n", 100.0 * off / PLACES,
+           100.0 * far / PLACES);
+    assert_true(off < PLACES / 50 && far > PLACES / 50);
+}
+
+// Lace lies still while patches drift: far drifts keep what is finer than a decimetre in place.
+static void lace_does_not_drift(void **state)
+{
+    (void)state;
+    enum { PLACES = 4000 };
+    double alike[2] = {0.0, 0.0};
+    for (uint64_t i = 0; i < PLACES; i++) {
+        Vec2 at = random_place(i), by = {at.x + 40.0f, at.y}, other = random_place(i + PLACES);
+        double here = (double)lace(0.5f, at, 0.0f);
+        alike[0] += fabs(here - (double)foam_share(0.5f, (FoamPlace){by, at}, 0.0f));
+        alike[1] += fabs(here - (double)foam_share(0.5f, (FoamPlace){by, other}, 0.0f));
+    }
+    printf("    differs by %.3f; with other lace by %.3f\n", alike[0] / PLACES, alike[1] / PLACES);
+    assert_true(alike[0] < 0.85 * alike[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mean_is_the_cover),
-        cmocka_unit_test(grows_with_the_cover_without_steps),
-        cmocka_unit_test(edges_are_soft),
-        cmocka_unit_test(wide_pixels_show_the_mean),
+        cmocka_unit_test(mean_is_the_cover), cmocka_unit_test(grows_with_the_cover_without_steps),
+        cmocka_unit_test(edges_are_soft),    cmocka_unit_test(wide_pixels_show_the_mean),
+        cmocka_unit_test(eddies_keep_areas), cmocka_unit_test(lace_does_not_drift),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

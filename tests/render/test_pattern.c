@@ -11,6 +11,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -614,6 +615,54 @@ static void test_stone_moss(void **state)
     assert_true(greener[2] < 0.2 * greener[1]);
 }
 
+// The normals of a karst wall turn across it, from flute to flute, more than down it.
+static void test_karst_is_fluted(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_KARST;
+    m.pattern_depth = 1.0f;
+    double turned[2] = {0};
+    for (uint64_t i = 0; i < 4000; i++) {
+        Vec3 p = random_point(i, 200.0f), n[3];
+        for (int k = 0; k < 3; k++) {
+            Vec3 at = k == 0 ? p : vec3_add(p, k == 1 ? vec3(2, 0, 0) : vec3(0, 2, 0));
+            SurfacePoint point = on_stone(at, 0.6f);
+            point.normal = point.geometric_normal = vec3(0, 0, 1);
+            point.site = (Vec2){0.1f, 0.0f}; // 100 m above the plain
+            PatternShade shade = {.color = m.color, .normal = point.normal};
+            pattern_apply(&m, &point, &shade);
+            n[k] = shade.normal;
+        }
+        turned[0] += (double)fabsf(n[1].x - n[0].x) / 4000.0;
+        turned[1] += (double)fabsf(n[2].x - n[0].x) / 4000.0;
+    }
+    printf("    turned by %.3f across, by %.3f down\n", turned[0], turned[1]);
+    assert_true(turned[0] > 1.9 * turned[1]);
+}
+
+// A mat of moss has a relief of its own, also where the stone has none and is not displaced.
+static void test_moss_is_no_paint(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_STONE;
+    m.color = m.color2 = vec3_splat(0.2f);
+    m.pattern_depth = 0.0f;
+    double tilted[2] = {0};
+    for (int k = 0; k < 2; k++) {
+        m.moss = k == 0 ? 0.0f : 0.85f;
+        for (uint64_t i = 0; i < 2000; i++) {
+            SurfacePoint point = on_stone(random_point(i, 10.0f), 0.006f);
+            PatternShade shade = {.color = m.color, .normal = point.normal};
+            pattern_apply(&m, &point, &shade);
+            tilted[k] += (double)(shade.normal.y < 0.97f) / 2000.0; // 14 degrees
+        }
+    }
+    printf("    tilted: %.3f of bare stone, %.3f of mossy stone\n", tilted[0], tilted[1]);
+    assert_true(tilted[0] == 0.0 && tilted[1] > 0.2);
+}
+
 // Stones lie before the mortar between them, on all sides of a wall, and differ in tone.
 static void test_masonry(void **state)
 {
@@ -749,6 +798,8 @@ int main(void)
         cmocka_unit_test(test_variation),
         cmocka_unit_test(test_stone),
         cmocka_unit_test(test_stone_moss),
+        cmocka_unit_test(test_karst_is_fluted),
+        cmocka_unit_test(test_moss_is_no_paint),
         cmocka_unit_test(test_masonry),
         cmocka_unit_test(test_dressed_stone),
         cmocka_unit_test(test_noise_pattern),

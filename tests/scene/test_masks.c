@@ -194,6 +194,56 @@ static void layers_mix_by_their_share(void **state)
     }
 }
 
+// A mask whose border lies along a wall: the wall's top is covered, its foot is not.
+static float share_on_wall(const MaterialSet *set, Vec3 normal, float along, float up)
+{
+    SurfacePoint point = point_at(8.0f);
+    point.position = point.object_position = vec3(8.0f, up, 4.0f + along);
+    point.geometric_normal = point.normal = normal;
+    Bsdf b = bsdf_at(set, &point, normal);
+    return (b.albedo.x - 0.1f) / 0.8f;
+}
+
+// Fray moves a border along the surface: on level ground the border at a place wanders, and on an
+// upright wall, which is above one line of the mask, it does not cover what lies beside the wall.
+static void fray_moves_along_the_surface(void **state)
+{
+    (void)state;
+    enum { SIDE = 17, PLACES = 400 };
+    static uint8_t border[SIDE * SIDE];
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        border[i] = i % SIDE > SIDE / 2 ? 255 : 0;
+    }
+    Mask mask = {SIDE, SIDE, {1.0f, 1.0f}, {0.0f, 0.0f}, border};
+    MaskSet masks = {&mask, 1, 1, first_of_part, 1};
+    MaterialLayer layer = {.material = (char *)"top", .strength = 1.0f, .fray = 1.0f};
+    Material m[2] = {material_default(MATERIAL_DIFFUSE), material_default(MATERIAL_DIFFUSE)};
+    strcpy(m[0].name, "top");
+    strcpy(m[1].name, "below");
+    m[0].color = vec3(0.9f, 0.9f, 0.9f);
+    m[1].color = vec3(0.1f, 0.1f, 0.1f);
+    m[1].layers = &layer;
+    m[1].layer_count = 1;
+    MaterialSet *set = material_set_new(m, NULL, 2, NULL, NULL);
+    assert_non_null(set);
+    material_set_use_masks(set, &masks);
+    float range[2];
+    for (int wall = 0; wall < 2; wall++) {
+        float least = 1.0f, most = 0.0f;
+        Vec3 normal = wall ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        for (int i = 0; i < PLACES; i++) {
+            float share = share_on_wall(set, normal, 0.02f * (float)i, 0.13f * (float)i);
+            least = fminf(least, share);
+            most = fmaxf(most, share);
+        }
+        range[wall] = most - least;
+    }
+    printf("    shares differ by %.2f on level ground, by %.4f on a wall\n", (double)range[0],
+           (double)range[1]);
+    assert_true(range[0] > 0.3f && range[1] < 1e-4f);
+    material_set_free(set);
+}
+
 // ---- what is refused
 
 static void wrong_layers_are_refused(void **state)
@@ -224,6 +274,7 @@ int main(void)
         cmocka_unit_test(nothing_is_kept_without_layers),
         cmocka_unit_test(masks_are_counted_in_the_estimate),
         cmocka_unit_test(layers_mix_by_their_share),
+        cmocka_unit_test(fray_moves_along_the_surface),
         cmocka_unit_test(wrong_layers_are_refused),
     };
     return cmocka_run_group_tests(tests, fixture_set_up, fixture_tear_down);

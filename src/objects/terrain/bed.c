@@ -205,9 +205,23 @@ static Vec2 sample_at(const HeightField *field, int row, int column)
                   field->origin.y + (float)row * field->cell.y};
 }
 
+// Where a river has cut into a wall, what stands above a bank this steep rises over some cells, by
+// the exact distance to the water. A step from one sample to the next would follow the samples, not
+// the shore: a wall at an angle to them would be a row of ribs, as tall as the wall.
+#define BANK_SLOPE 2.0f
+#define BANK_CELLS 2.5f
+
+// The height of land of this height at a place beside a bed whose edge has a height; outside: m
+// from that edge.
+static float beside_bed(float land, float edge, float outside, float cell)
+{
+    float bank = edge + BANK_SLOPE * outside, share = outside / (BANK_CELLS * cell);
+    return land > bank && share < 1.0f ? lerpf(bank, land, share) : land;
+}
+
 static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
 {
-    float reach = TERRAIN_STRAND * field->cell.x;
+    const float cell = field->cell.x, reach = TERRAIN_STRAND * cell;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int row = 0; row < field->rows; row++) {
         for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
@@ -215,9 +229,15 @@ static bool dig_beds(const Terrain *terrain, HeightField *field, const Run *run)
             Vec2 at = sample_at(field, row, column);
             int32_t node;
             float away = trough_envelope_at(terrain->shore, at.x, at.y, &node);
+            if (away >= reach + BANK_CELLS * cell) {
+                continue;
+            }
+            float bed = bed_at(terrain, node, at.x, at.y, away, cell);
             if (away < reach) {
                 terrain->bank[i] = 1;
-                field->height[i] = bed_at(terrain, node, at.x, at.y, away, field->cell.x);
+                field->height[i] = bed;
+            } else {
+                field->height[i] = beside_bed(field->height[i], bed, away - reach, cell);
             }
         }
     }

@@ -73,11 +73,11 @@ static void boil(const OutTree *water, const float *drop, int64_t lip, RiverFlow
     }
 }
 
-// What drifts is drawn out along the flow: the length that a metre of the river has in coordinates
-// in which its foam is as wide as long.
+// What drifts is drawn out along the flow, but the faster the flow, the more it is also stirred:
+// the length that a metre of the river has in coordinates in which its foam is as wide as long.
 float terrain_drawn_out(float speed)
 {
-    return 1.0f / (1.0f + speed);
+    return 1.0f / sqrtf(1.0f + speed);
 }
 
 // Foam of rapids and falls drifts on. Where bubbles are dense they meet and burst within seconds;

@@ -71,16 +71,20 @@ static float patches(float share, Vec2 at, float width)
     return share;
 }
 
-float foam_share(float cover, Vec2 at, float width)
+// Sizes of holes, m; those from STILL on lie still.
+static const float HOLE[] = {2.6f, 0.95f, 0.34f, 0.12f};
+enum { STILL = 1 };
+
+float foam_share(float cover, FoamPlace place, float width)
 {
-    static const float size[] = {2.6f, 0.95f, 0.34f, 0.12f}; // m: of holes
-    float share = patches(clampf(cover, 0.0f, 1.0f), at, width);
-    for (uint32_t i = 0; share > 0.0f && i < sizeof size / sizeof size[0]; i++) {
-        float seen = pattern_detail(size[i], width);
+    float share = patches(clampf(cover, 0.0f, 1.0f), place.drift, width);
+    for (uint32_t i = 0; share > 0.0f && i < sizeof HOLE / sizeof HOLE[0]; i++) {
+        float seen = pattern_detail(HOLE[i], width);
         if (seen <= 0.0f) {
             break;
         }
-        Vec2 p = {0.72f * at.x / size[i], 1.3f * at.y / size[i]};
+        Vec2 at = i < STILL ? place.drift : place.still;
+        Vec2 p = {0.72f * at.x / HOLE[i], 1.3f * at.y / HOLE[i]};
         Vec3 bend = {1.3f * p.x, 0.5f, 1.3f * p.y};
         p.x += 0.38f * noise_solid(bend, 841 + i, NULL);
         p.y += 0.38f * noise_solid(bend, 851 + i, NULL);
@@ -88,4 +92,22 @@ float foam_share(float cover, Vec2 at, float width)
         share = lerpf(share, gathered(share, rank, 0.24f, 0.8f), 0.9f * seen);
     }
     return share;
+}
+
+// One eddy in each square of the spacing, within it, some of them turning the other way.
+Vec2 foam_stirred(Vec2 at, float spacing, float turns, uint32_t seed)
+{
+    float column = floorf(at.x / spacing), row = floorf(at.y / spacing);
+    uint32_t square =
+        (uint32_t)(int32_t)column * 0x8da6b343u + (uint32_t)(int32_t)row * 0xd8163841u;
+    float reach = lerpf(0.28f, 0.5f, noise_unit(square, seed));
+    float x = at.x / spacing - column - lerpf(reach, 1.0f - reach, noise_unit(square, seed + 1));
+    float y = at.y / spacing - row - lerpf(reach, 1.0f - reach, noise_unit(square, seed + 2));
+    float inside = 1.0f - (x * x + y * y) / (reach * reach);
+    if (inside <= 0.0f) {
+        return at;
+    }
+    float turned = turns * (2.0f * noise_unit(square, seed + 3) - 1.0f) * inside * inside;
+    float s = sinf(turned), c = cosf(turned) - 1.0f;
+    return (Vec2){at.x + spacing * (c * x - s * y), at.y + spacing * (s * x + c * y)};
 }

@@ -5,9 +5,23 @@
 
 #include "base/vec.h"
 
-// Share of a pixel of this width, m, that foam hides at a place of the water, m, whose
-// surroundings it hides to the share `cover`, 0..1. Its mean over places is the cover, for any
-// width; it grows with the cover; a wider pixel shows less of the lace. Holes are longer along x.
-float foam_share(float cover, Vec2 at, float width);
+#include <stdint.h>
+
+// Places that foam is looked up at, m. What is large has drifted for long and lies in coordinates
+// that the flow draws out; what is small is stirred anew within seconds and lies as it is.
+typedef struct FoamPlace {
+    Vec2 drift; // of patches and large holes
+    Vec2 still; // of the lace
+} FoamPlace;
+
+// Share of a pixel of this width, m, that foam hides at a place of the water whose surroundings it
+// hides to the share `cover`, 0..1. Its mean over places is the cover, for any width; it grows with
+// the cover; a wider pixel shows less of the lace. Holes are longer along x.
+float foam_share(float cover, FoamPlace at, float width);
+
+// Where the water at a place, m, was before eddies of this spacing, m, turned it: parts of circles
+// that do not overlap, each turned by up to `turns` radians about its middle, none at its rim.
+// Lookups moved so curl into spirals. Areas are kept, so that means are.
+Vec2 foam_stirred(Vec2 at, float spacing, float turns, uint32_t seed);
 
 #endif

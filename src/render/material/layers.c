@@ -35,14 +35,17 @@ static void lay(LayerMix *below, const LayerMix *top, float share)
     below->coated = old + fresh;
 }
 
-// Noise moves the places where the mask is looked up, so that borders are ragged at close range.
+// Noise moves the places where the mask is looked up, so that borders are ragged at close range. It
+// moves them along the surface: across a steep wall, whose top and foot lie side by side in plan,
+// it would look up now the one, now the other.
 static float share_at(const MaterialLayer *layer, const Mask *mask, const SurfacePoint *point)
 {
     Vec3 p = point->object_position;
     if (layer->fray > 0.0f) {
-        Vec3 q = vec3_scale(p, 0.25f / layer->fray);
-        p.x += layer->fray * noise_fractal(q, 5, 211);
-        p.z += layer->fray * noise_fractal(q, 5, 223);
+        Vec3 q = vec3_scale(p, 0.25f / layer->fray), n = surface_smooth_normal(point);
+        Vec3 moved = {noise_fractal(q, 5, 211), noise_fractal(q, 5, 235), noise_fractal(q, 5, 223)};
+        moved = vec3_madd(moved, -vec3_dot(moved, n), n);
+        p = vec3_madd(p, layer->fray, moved);
     }
     return clampf(layer->strength * mask_at(mask, p.x, p.z), 0.0f, 1.0f);
 }

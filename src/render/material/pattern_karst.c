@@ -10,15 +10,33 @@
 
 #include <stddef.h>
 
-enum { SEED_PATCH = 601, SEED_ROCK = 611, SEED_STREAK = 631, SEED_BUSH = 651, SEED_FIELD = 671 };
+enum {
+    SEED_PATCH = 601,
+    SEED_ROCK = 611,
+    SEED_STREAK = 631,
+    SEED_BUSH = 651,
+    SEED_FIELD = 671,
+    SEED_FLUTE = 691
+};
 
 // Dark films of algae where water runs, pale tufa and rust beside them.
 static Vec3 stain(const SurfacePoint *point, Vec3 color, float patch)
 {
     float dark = pattern_streaks(point, 9.0f);
     float rust = smoothstepf(0.15f, 0.6f, 0.7f * patch - 0.6f * dark);
-    color = vec3_lerp(color, vec3(0.30f, 0.225f, 0.135f), 0.4f * rust);
-    return vec3_lerp(color, vec3(0.055f, 0.056f, 0.055f), 0.75f * dark);
+    color = vec3_lerp(color, vec3(0.30f, 0.21f, 0.115f), 0.48f * rust);
+    return vec3_lerp(color, vec3(0.055f, 0.056f, 0.055f), 0.85f * dark);
+}
+
+// Runnels that the rain has dissolved down steep faces, side by side with sharp ribs between them
+// (rillenkarren, and larger). groove: 0..1 in the bottom of one.
+static PatternOctaves flutes(const SurfacePoint *point, float *groove)
+{
+    PatternOctaves wide = pattern_octaves(point, 13.0f, 4, 0.7f, 0.05f, SEED_FLUTE);
+    float steep = smoothstepf(0.6f, 0.35f, fabsf(surface_smooth_normal(point).y));
+    *groove = steep * (1.0f - smoothstepf(0.0f, 0.3f, fabsf(wide.value)));
+    wide.slope = vec3_scale(wide.slope, wide.value < 0.0f ? -steep : steep);
+    return wide;
 }
 
 static CragsRock face_of(const SurfacePoint *point)
@@ -32,7 +50,7 @@ float pattern_karst_height(const Material *m, const SurfacePoint *point)
     return m->pattern_depth * crags_height(point, &face, 0.8f, 0.5f);
 }
 
-// ledges: the share of the place that soil on ledges takes.
+// ledges: the share of the place that soil on ledges takes, and in cracks.
 static Ground rock(const SurfacePoint *point, float patch, float *ledges)
 {
     PatternOctaves rough = pattern_octaves(point, 3.0f, 7, 0.6f, 0.7f, SEED_ROCK);
@@ -48,13 +66,16 @@ static Ground rock(const SurfacePoint *point, float patch, float *ledges)
         tone = pattern_lamina(level, thick, point->footprint, 0.6f, 7919u * (uint32_t)bed);
     }
     Crags crags = pattern_crags(point, &face);
-    *ledges = crags.ledge;
+    *ledges = fmaxf(crags.ledge, 0.8f * crags.crevice);
+    float groove;
+    PatternOctaves runnels = flutes(point, &groove);
     color = stain(point, color, patch);
     float light = 1.0f + 0.25f * (tone - 0.5f) + 0.15f * crags.tone + 0.12f * rough.value;
-    light *= 1.0f - 0.7f * crags.crevice;
+    light *= (1.0f - 0.7f * crags.crevice) * (1.0f - 0.4f * groove);
     Ground g = {.color = vec3_scale(color, clampf(light, 0.3f, 1.6f))};
     g.slope = vec3_madd(vec3_scale(rough.slope, 0.1f), 0.9f, crags.slope);
     g.slope = vec3_madd(g.slope, 0.12f, karren.slope);
+    g.slope = vec3_madd(g.slope, 1.1f, runnels.slope);
     g.slope.y += 0.6f * (tone - 0.5f);
     return g;
 }

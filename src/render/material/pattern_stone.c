@@ -8,7 +8,14 @@
 #include <math.h>
 #include <stddef.h>
 
-enum { SIZES = 3, SEED_WARP = 201, SEED_CELLS = 210, SEED_GRAIN = 220, SEED_STAIN = 224 };
+enum {
+    SIZES = 3,
+    SEED_WARP = 201,
+    SEED_CELLS = 210,
+    SEED_GRAIN = 220,
+    SEED_STAIN = 224,
+    SEED_MOSS = 240
+};
 
 typedef struct Broken {
     float height; // about -0.5 .. 0.5
@@ -72,11 +79,42 @@ static float relief_at(const Material *m, const SurfacePoint *point, Vec3 p)
            (broken_at(p, scale_of(m), footprint).height + grain_height(p, footprint));
 }
 
-static Overgrowth moss_of(const Material *m, const SurfacePoint *point, float joint)
+// Of cushions of moss, m: their mean width, and their thickness where it grows best.
+#define CUSHION 0.11f
+#define THICKEST 0.022f
+
+// Moss grows in a mat of cushions that are ragged at the rims of faces, hang over some of them, and
+// have died or never grown elsewhere.
+static Overgrowth moss_of(const Material *m, const SurfacePoint *point, Vec3 p, float joint)
 {
+    SurfacePoint at = *point;
+    at.object_position = p;
     Vec3 n = surface_smooth_normal(point);
-    float damp = clampf(0.05f + 0.8f * n.y - 0.2f * n.z, 0.0f, 1.0f);
-    return moss_at(m->moss, point, damp, 1.5f * joint, 0.012f);
+    float broad = noise_fractal(vec3_scale(p, 1.0f / 0.7f), 3, SEED_MOSS);
+    float rim = noise_fractal(vec3(p.x / 0.24f, 0.6f * p.y / 0.24f, p.z / 0.24f), 4, SEED_MOSS + 4);
+    float damp = 0.05f + 0.8f * (n.y + 0.45f * rim) - 0.2f * n.z - 0.35f * fmaxf(broad, 0.0f);
+    Overgrowth moss = moss_at(m->moss, &at, clampf(damp, 0.0f, 1.0f), 1.5f * joint, THICKEST);
+    if (moss.share <= 0.0f) {
+        return moss;
+    }
+    float seen = pattern_detail(0.5f * CUSHION, point->footprint);
+    float cushion = seen * noise_fractal(vec3_scale(p, 1.0f / CUSHION), 3, SEED_MOSS + 9);
+    moss.height += 0.9f * THICKEST * moss.share * cushion;
+    // Dry and dead moss is brown, young tips are yellow, and between cushions it is dark.
+    float dry = smoothstepf(0.0f, 0.5f, broad + 0.5f * rim - 0.25f * cushion);
+    Vec3 straw = vec3_scale(vec3(0.105f, 0.082f, 0.034f), 0.7f + moss.color.y * 3.0f);
+    moss.color = vec3_lerp(moss.color, straw, 0.55f * dry);
+    moss.color = vec3_scale(moss.color, clampf(0.68f + 0.6f * cushion, 0.28f, 1.2f));
+    return moss;
+}
+
+// The same with its moss. A mat hides the finest of the relief below.
+static float mossy_relief_at(const Material *m, const SurfacePoint *point, Vec3 p)
+{
+    Broken broken = broken_at(p, scale_of(m), point->footprint);
+    float stone = m->pattern_depth * (broken.height + grain_height(p, point->footprint));
+    Overgrowth moss = moss_of(m, point, p, broken.joint);
+    return (1.0f - 0.7f * moss.share) * stone + moss.height;
 }
 
 float pattern_stone_height(const Material *m, const SurfacePoint *point)
@@ -84,7 +122,7 @@ float pattern_stone_height(const Material *m, const SurfacePoint *point)
     Vec3 p = point->object_position;
     Broken broken = broken_at(p, scale_of(m), point->footprint);
     float height = m->pattern_depth * (broken.height + grain_height(p, point->footprint));
-    height += m->moss > 0.0f ? moss_of(m, point, broken.joint).height : 0.0f;
+    height += m->moss > 0.0f ? moss_of(m, point, p, broken.joint).height : 0.0f;
     return m->lichen > 0.0f ? height + lichen_at(m->lichen, point).height : height;
 }
 
@@ -114,17 +152,19 @@ void pattern_stone(const Material *m, const SurfacePoint *point, PatternShade *s
     float joint = broken_at(point->object_position, scale_of(m), point->footprint).joint;
     shade->color = minerals(m, point, shade->color, joint);
     float bump = 1.0f - point->displaced;
+    bool mossy = false;
     if (m->lichen > 0.0f) {
         Overgrowth lichen = lichen_at(m->lichen, point);
         shade->color = vec3_lerp(shade->color, lichen.color, lichen.share);
     }
     if (m->moss > 0.0f) {
-        Overgrowth moss = moss_of(m, point, joint);
+        Overgrowth moss = moss_of(m, point, point->object_position, joint);
         shade->color = vec3_lerp(shade->color, moss.color, moss.share);
-        bump *= 1.0f - 0.7f * moss.share;
+        mossy = moss.share > 0.0f;
     }
-    if (bump > 0.0f && m->pattern_depth > 0.0f) {
-        Vec3 slope = pattern_slope(m, point, relief_at, 0.01f * scale_of(m));
+    if (bump > 0.0f && (m->pattern_depth > 0.0f || mossy)) {
+        Vec3 slope =
+            pattern_slope(m, point, mossy ? mossy_relief_at : relief_at, 0.01f * scale_of(m));
         shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, bump));
     }
 }

@@ -5,6 +5,7 @@
 #include "render/material/pattern.h"
 #include "render/material/pattern_beds.h"
 #include "render/material/pattern_crags.h"
+#include "render/material/pattern_damp.h"
 #include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
 #include "render/material/pattern_shore.h"
@@ -164,6 +165,7 @@ void pattern_mountain(const Material *m, const SurfacePoint *point, PatternShade
                      pattern_mountain_blocks(m), MOUNTAIN_BEDS, 0.7f);
     Ground g = face.ground;
     stain(point, 0.1f * scale, upright, &g.color);
+    g = pattern_damp(m->moss, point, &face.crags, upright, g);
     upright += 0.3f * face.crags.ledge;
     float loose = smoothstepf(0.70f, 0.80f, upright + 0.07f * ragged);
     Ground other = scree(m, point, shade->color, scale);
@@ -315,6 +317,25 @@ void pattern_altitude(const Material *m, const SurfacePoint *point, PatternShade
     shade->color = vec3_lerp(stop[i].color, stop[next].color, t);
 }
 
+// Where a river's foam is looked up. Eddies of some sizes stir it; the drift's coordinates are
+// shorter along the flow, by the length of their tangent.
+static FoamPlace stirred_foam(const SurfacePoint *point)
+{
+    enum { SEED_EDDIES = 861 };
+    Vec2 p = {point->object_position.x, point->object_position.z};
+    Vec2 still = foam_stirred(p, 3.4f, 7.0f, SEED_EDDIES);
+    still = foam_stirred((Vec2){still.x + 0.83f, still.y + 0.41f}, 1.3f, 5.0f, SEED_EDDIES + 7);
+    Vec2 moved = {still.x - 0.83f - p.x, still.y - 0.41f - p.y};
+    // Metres of the way along the flow and across it that the eddies have moved.
+    Vec3 u = point->tangent_u, v = point->tangent_v;
+    float along = fmaxf(u.x * u.x + u.z * u.z, 1e-6f), across = fmaxf(v.x * v.x + v.z * v.z, 1e-6f);
+    Vec2 drift = {point->uv.x + (moved.x * u.x + moved.y * u.z) / along,
+                  point->uv.y + (moved.x * v.x + moved.y * v.z) / across};
+    const float round =
+        0.967f; // foam_share makes holes longer along x, which is no flow's way here
+    return (FoamPlace){drift, {still.x * round / 0.72f, still.y * round / 1.3f}};
+}
+
 // Ripples: a few octaves of noise that fade where the pixel is too coarse. White water heaves, and
 // foam (color2) lies on it.
 void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *shade)
@@ -327,13 +348,13 @@ void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *s
         const float wave = 1.1f, height = 0.16f; // m
         PatternOctaves heaves = pattern_octaves(point, wave, 5, 0.6f, 1.0f, 157);
         slope = vec3_madd(slope, height * point->foam, heaves.slope);
-        Vec2 at = point->uv; // along the flow, and across
         // Water wells up in boils, which push foam aside into the lows between them, but where all
         // is white water.
         float boils =
             lerpf(0.9f - 0.45f * heaves.value, 1.0f, smoothstepf(0.96f, 1.0f, point->foam));
         float cover = clampf(point->foam * boils, 0.0f, 1.0f);
-        shade->foam = point->foam < 1.0f ? foam_share(cover, at, point->footprint) : 1.0f;
+        shade->foam =
+            point->foam < 1.0f ? foam_share(cover, stirred_foam(point), point->footprint) : 1.0f;
         shade->color = vec3_lerp(shade->color, m->color2, shade->foam);
     }
     shade->normal = pattern_tilt(shade->normal, slope);

@@ -35,7 +35,7 @@ static void whiten_sea(Bsdf *b, const WavePoint *wave, const Waves *waves,
     if (cover > 0.0f) {
         Vec2 at = {point->uv.x * waves->way.x + point->uv.y * waves->way.y,
                    point->uv.y * waves->way.x - point->uv.x * waves->way.y};
-        whiten(b, cover, foam_share(cover, at, point->footprint), plume);
+        whiten(b, cover, foam_share(cover, (FoamPlace){at, at}, point->footprint), plume);
     }
 }
 
