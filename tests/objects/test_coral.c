@@ -255,6 +255,39 @@ static void a_stalk_may_stand_aside(void **state)
     }
 }
 
+// A level plate stays in a slab; an uneven one leaves it and does not fill its disc.
+static void a_plate_may_be_uneven(void **state)
+{
+    (void)state;
+    double height[2], filled[2];
+    for (int uneven = 0; uneven < 2; uneven++) {
+        CoralParams params = small(CORAL_TABLE);
+        params.rule = CORAL_MEAN;
+        params.plate = 0.01f * params.size;
+        params.branchlet = 0.01f * params.size;
+        params.uneven = (float)uneven;
+        OutTree *tree = grow(&params, 1);
+        double sum = 0.0, squares = 0.0;
+        int64_t count = 0, outside = 0;
+        for (int64_t i = 0; i < tree->count; i++) {
+            if (tree->birth[i] == 0) {
+                continue;
+            }
+            double y = (double)(tree->position[i].y / params.size);
+            sum += y;
+            squares += y * y;
+            count++;
+            outside += hypotf(tree->position[i].x, tree->position[i].z) > 0.45f * params.size;
+        }
+        height[uneven] = sqrt(squares / (double)count - sum * sum / (double)(count * count));
+        filled[uneven] = (double)outside / (double)count;
+        out_tree_free(tree);
+    }
+    assert_true(height[0] < 0.008);
+    assert_true(height[1] > 2.0 * height[0]);
+    assert_true(filled[1] < 0.8 * filled[0]);
+}
+
 static void a_cup_is_open_and_faces_outward(void **state)
 {
     (void)state;
@@ -296,6 +329,7 @@ int main(void)
         cmocka_unit_test(cups_keep_their_distance_and_lean_to_the_tip),
         cmocka_unit_test(fused_branches_are_a_net),
         cmocka_unit_test(a_stalk_may_stand_aside),
+        cmocka_unit_test(a_plate_may_be_uneven),
         cmocka_unit_test(a_cup_is_open_and_faces_outward),
         cmocka_unit_test(a_wrong_rule_is_one_clear_error),
     };

@@ -14,13 +14,15 @@
 
 enum { STREAM_LUMP_TURN = 1, STREAM_LUMP_SIZE = 2 };                     // of a boulder's lump
 enum { STREAM_POINT_X = 0, STREAM_POINT_Y = 1, STREAM_POINT_LIGHT = 2 }; // of a fan's attractor
-enum { STREAM_BRANCHLETS = 77 };                                         // of a node's id
+enum { STREAM_TILT_X = 0, STREAM_TILT_Z = 1, STREAM_LOBES = 2 };         // of an uneven plate
+enum { STREAM_LOBE_TURN = 0, STREAM_LOBE_WAY = 1, STREAM_LOBE_WIDTH = 2, STREAM_LOBE_RISE = 3 };
+enum { STREAM_BRANCHLETS = 77 }; // of a node's id
 // Of a node's branchlets; those of attractor k start at STREAMS_A_BRANCHLET * k.
 enum { STREAM_RISE = 0, STREAM_X = 1, STREAM_Z = 2, STREAMS_A_BRANCHLET = 4 };
 
 #define GOLDEN_ANGLE 2.39996323f
 
-enum { STEM_NODES = 4, MOST_COLONIES = 256 };
+enum { STEM_NODES = 4, MOST_COLONIES = 256, PLATE_LOBES = 12 };
 
 // State of a coral's growth.
 typedef struct Growing {
@@ -98,10 +100,42 @@ static Vec3 plate_middle(const CoralParams *p, int colony, uint64_t seed)
     return vec3_madd(foot, 0.5f * p->size * p->eccentric, vec3(c, 0, s));
 }
 
+// An uneven plate about `middle`: a disc with lobes around it, all tilted together, each lobe at a
+// height of its own. Shares below are of the half size, for an unevenness of 1.
+static int uneven_plate(const CoralParams *p, Vec3 middle, uint64_t seed, Shape *shapes)
+{
+    float r = 0.5f * p->size, u = p->uneven, half = 0.5f * p->plate;
+    float tilt_x = 9.0f * u * random_range(random_key(seed, STREAM_TILT_X), -1.0f, 1.0f);
+    float tilt_z = 9.0f * u * random_range(random_key(seed, STREAM_TILT_Z), -1.0f, 1.0f);
+    Transform tilt = transform_compose(vec3_splat(0), vec3(tilt_x, 0, tilt_z), vec3_splat(1));
+    for (uint64_t i = 0; i < PLATE_LOBES; i++) {
+        uint64_t key = random_key(random_key(seed, STREAM_LOBES), i);
+        float s, c, wide = r * (1.0f - 0.4f * u);
+        Vec3 off = vec3_splat(0);
+        if (i > 0) {
+            exact_sincos((float)i * GOLDEN_ANGLE +
+                             random_range(random_key(key, STREAM_LOBE_TURN), -0.5f, 0.5f),
+                         &s, &c);
+            float lobe = u * r * random_range(random_key(key, STREAM_LOBE_WIDTH), 0.3f, 0.6f);
+            float way = r - lobe - 0.25f * u * r * random_unit(random_key(key, STREAM_LOBE_WAY));
+            float rise =
+                0.05f * u * r * random_range(random_key(key, STREAM_LOBE_RISE), -0.4f, 1.0f);
+            off = transform_vector(&tilt, vec3(way * c, rise, way * s));
+            wide = lobe;
+        }
+        shapes[i] = (Shape){.kind = SHAPE_ELLIPSOID,
+                            .op = SHAPE_UNION,
+                            .size = vec3(wide, half, wide),
+                            .transform = transform_compose(vec3_add(middle, off),
+                                                           vec3(tilt_x, 0, tilt_z), vec3_splat(1))};
+    }
+    return PLATE_LOBES;
+}
+
 // A dome over each colony's foot, all joined; a disc for tables.
 static Envelope *room(const CoralParams *p, uint64_t seed, const Run *run, Error *e)
 {
-    Shape *shapes = memory_alloc(p->colonies + 1, sizeof *shapes, e);
+    Shape *shapes = memory_alloc(p->colonies * PLATE_LOBES + 1, sizeof *shapes, e);
     if (!shapes) {
         return NULL;
     }
@@ -112,7 +146,13 @@ static Envelope *room(const CoralParams *p, uint64_t seed, const Run *run, Error
         Vec3 foot = table ? plate_middle(p, i, seed) : colony_foot(p, i);
         float middle = (table ? 0.9f : 0.5f) * p->height;
         float half = table ? 0.5f * p->plate : 0.52f * p->height;
-        shapes[count++] = ellipsoid(vec3_add(foot, vec3(0, middle, 0)), vec3(r, half, r));
+        foot.y += middle;
+        if (table && p->uneven > 0.0f) {
+            uint64_t own = random_key(seed, STREAM_CORAL_PLATE + (uint64_t)i);
+            count += uneven_plate(p, foot, own, shapes + count);
+        } else {
+            shapes[count++] = ellipsoid(foot, vec3(r, half, r));
+        }
     }
     if (p->form == CORAL_BRANCHING) { // nothing below the ground
         shapes[count] = (Shape){
@@ -248,9 +288,9 @@ static ColonizeParams colonize_params(const Growing *g, double spacing)
     c.room = g->recipe->room;
     c.noise = p->noise;
     c.tropism = vec3(0, p->form == CORAL_BRANCHING ? 0.12f * p->light : 0.0f, 0);
-    // a table's plate acts as a surface: its attractors' normals point up
-    c.on_surface =
-        p->form == CORAL_TABLE || p->form == CORAL_ENCRUSTING || p->form == CORAL_MASSIVE;
+    // a level plate acts as a surface: its attractors' normals point up
+    c.on_surface = (p->form == CORAL_TABLE && p->uneven <= 0.0f) || p->form == CORAL_ENCRUSTING ||
+                   p->form == CORAL_MASSIVE;
     c.length_near = p->length;
     c.length_far = p->length_tip;
     c.sector_angle = p->group;

@@ -93,6 +93,9 @@ static const Key CORAL_KEYS[] = {
     {KEY_OF(CoralParams, eccentric, "eccentric", KEY_FLOAT), .high = 1,
      .doc = "Form table: distance of the stalk from the plate's middle, as a fraction of half the "
             "size."},
+    {KEY_OF(CoralParams, uneven, "uneven", KEY_FLOAT), .high = 1,
+     .doc = "Form table: how uneven the plate is: tilted, with a lobed margin, its lobes lying a "
+            "little above and below each other; 0 = a level disc."},
     {KEY_OF(CoralParams, pale, "pale", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Distance from a growing tip over which the tissue is pale; 0 = 4 tip radii."},
     {KEY_OF(CoralParams, polyps, "polyps", KEY_GROUP), .table = &POLYP_TABLE,
