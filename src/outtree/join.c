@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,6 +13,7 @@ typedef struct Joining {
     uint8_t *is_tip;  // per node
     int32_t *partner; // per node: the node it joins, or -1
     int32_t *piece;   // per node: union-find
+    float *since;     // per node, m along its branch from the last bridge; negative = one ends here
 } Joining;
 
 static int32_t find_piece(int32_t *piece, int32_t i)
@@ -45,12 +47,16 @@ bool out_tree_path_exceeds(const OutTree *tree, int64_t a, int64_t b, float leas
     return a != b;
 }
 
+// A tip joins ahead, a side across.
 static bool suits(const Joining *joining, int64_t tip, int64_t node, Vec3 way, float distance)
 {
+    const float aslant = 0.6f; // largest cosine between a branch and its bridges
     const OutTree *tree = joining->tree;
     Vec3 heading = vec3_normalize(vec3_sub(tree->position[tip], tree->position[tree->parent[tip]]));
-    return distance > 0.0f && joining->partner[node] != tip &&
-           vec3_dot(heading, way) >= joining->params->least_cosine * distance &&
+    float ahead = vec3_dot(heading, way);
+    bool turned = joining->is_tip[tip] ? ahead >= joining->params->least_cosine * distance
+                                       : fabsf(ahead) <= aslant * distance;
+    return distance > 0.0f && joining->partner[node] != tip && turned &&
            vec3_dot(tree->normal[tip], tree->normal[node]) > 0.0f &&
            out_tree_path_exceeds(tree, tip, node, joining->params->least_path);
 }
@@ -112,6 +118,37 @@ static bool find_gap(const Joining *joining, const Run *run, int64_t *from, int6
     return nearest < INFINITY;
 }
 
+// Bridges from the sides of branches, in order of the nodes, so that a branch's come before its
+// daughters'.
+static bool add_bridges(Joining *joining, const Run *run, Error *e)
+{
+    const OutTree *tree = joining->tree;
+    float spacing = joining->params->spacing, *since = joining->since;
+    for (int64_t i = 0; i < joining->count && !run_is_cancelled(run); i++) {
+        int32_t parent = tree->parent[i];
+        if (parent < 0) {
+            continue;
+        }
+        float way = vec3_distance(tree->position[i], tree->position[parent]);
+        since[i] = since[i] < 0.0f ? 0.0f : since[parent] + way;
+        if (joining->is_tip[i] || since[i] < spacing) {
+            continue;
+        }
+        int32_t to = find_partner(joining, i);
+        bool room = to >= 0 && (to < i ? since[to] >= 0.5f * spacing : since[to] >= 0.0f);
+        if (!room) {
+            continue;
+        }
+        joining->partner[i] = to;
+        since[i] = 0.0f;
+        since[to] = to < i ? 0.0f : -1.0f;
+        if (!add_join(joining, i, to, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool join(Joining *joining, const Run *run, Error *e)
 {
     OutTree *tree = joining->tree;
@@ -132,6 +169,9 @@ static bool join(Joining *joining, const Run *run, Error *e)
             }
         }
     }
+    if (joining->params->spacing > 0.0f && !add_bridges(joining, run, e)) {
+        return false;
+    }
     int64_t from = 0, to = 0;
     while (joining->params->all_one && find_gap(joining, run, &from, &to)) {
         if (!add_join(joining, from, to, e)) {
@@ -148,13 +188,16 @@ bool out_tree_join_tips(OutTree *tree, const JoinParams *params, int64_t *joins,
     joining.is_tip = memory_alloc(tree->count, 1, e);
     joining.partner = memory_alloc(tree->count, sizeof *joining.partner, e);
     joining.piece = memory_alloc(tree->count, sizeof *joining.piece, e);
-    bool done = joining.is_tip && joining.partner && joining.piece && join(&joining, run, e);
+    joining.since = memory_alloc_zero(tree->count, sizeof *joining.since, e);
+    bool done = joining.is_tip && joining.partner && joining.piece && joining.since &&
+                join(&joining, run, e);
     if (joins) {
         *joins = tree->count - joining.count;
     }
     free(joining.is_tip);
     free(joining.partner);
     free(joining.piece);
+    free(joining.since);
     return done;
 }
 

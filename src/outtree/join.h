@@ -12,13 +12,16 @@ typedef struct JoinParams {
     float least_path;   // m, least path length between the two along the branches; prevents small
                         // loops
     float least_cosine; // of the angle between the tip's direction and the join
-    bool all_one;       // then connect the remaining components at their nearest nodes until there
-                        // is one
+    float spacing; // m along a branch between bridges that grow from its sides, within reach, to
+                   // other branches; 0 = tips alone join
+    bool all_one;  // then connect the remaining components at their nearest nodes until there
+                   // is one
 } JoinParams;
 
 // Joins each tip to the nearest suitable node (ties: the lowest index) whose normal is on the same
-// side; two tips join once. A join's birth is one after the later of its ends. *joins (may be NULL)
-// is set to the number of nodes added. Takes O(tips x nodes) time.
+// side; two tips join once. Then, with a spacing, does the same from the sides of branches, which
+// makes a net of them. A join's birth is one after the later of its ends. *joins (may be NULL) is
+// set to the number of nodes added. Takes O(tips x nodes) time, with a spacing O(nodes^2).
 bool out_tree_join_tips(OutTree *tree, const JoinParams *params, int64_t *joins, const Run *run,
                         Error *e);
 

@@ -29,6 +29,7 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"leaf", PATTERN_LEAF},
                                     {"noise", PATTERN_NOISE},
                                     {"corallite", PATTERN_CORALLITE},
+                                    {"reef", PATTERN_REEF},
                                     {"brain", PATTERN_BRAIN},
                                     {"youth", PATTERN_YOUTH},
                                     {"sand", PATTERN_SAND},
@@ -159,7 +160,10 @@ static const Key MATERIAL_KEYS[] = {
          "a wall of weathered stones in courses as high as pattern_scale; dressed: the same stone "
          "without joints, for arches, sills and fallen blocks; leaf: "
          "veins and blotches; noise: plain noise; corallite: "
-         "cups of a coral; brain: winding ridges of a brain coral, color2 in the valleys; youth: "
+         "cups of a coral; brain: winding ridges of a brain coral, color2 in the valleys; "
+         "reef: a boulder of coral that lives: cups, swellings paler (color2) above, bites of fish "
+         "(scars), dead patches under turf (moss) and pink coralline algae (lichen), darker "
+         "undersides; of dead rock with moss and lichen 1; youth: "
          "color2 where a branch still grows; sand: ripples of a sea "
          "floor; mountain: rock in blocks between beds and joints (with a terrain's beds in their "
          "colours relative to their mean), scree, grass and snow; "
@@ -216,11 +220,14 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "Patterns bark, stone, masonry and dressed: how much moss grows on it: at the foot, on "
             "sides that face up or north (-z), in furrows and joints first. Pattern mountain: how "
             "damp its faces are: moss in cracks, on ledges and where water seeps, algae, rust and "
-            "lime in streaks."},
+            "lime in streaks. Reef: how much of it is dead, under turf."},
     {KEY_OF(Material, lichen, "lichen", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc = "Patterns bark, stone, masonry and dressed: how much lichen grows on it."},
+     .doc =
+         "Patterns bark, stone, masonry and dressed: how much lichen grows on it; reef: how much "
+         "of its dead patches and undersides is pink with coralline algae."},
     {KEY_OF(Material, scars, "scars", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc = "Pattern bark: how many knots and scars of shed limbs it has."},
+     .doc = "Pattern bark: how many knots and scars of shed limbs it has; reef: how many bites of "
+            "parrotfish."},
     {KEY_OF(Material, ribs, "ribs", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern bark: depth of ribs along a thick stem, 1 = half of its radius; only where it "
             "is displaced."},

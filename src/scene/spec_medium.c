@@ -29,6 +29,11 @@ static const Key MEDIUM_KEYS[] = {
     {KEY_OF(Medium, wavelength, "wavelength", KEY_FLOAT), .kinds = BIT(MEDIUM_WATER), .high = 1e4,
      .unit = "m",
      .doc = "Distance between waves; 0 = a third of the depth of the camera's target."},
+    {KEY_OF(Medium, swell, "swell", KEY_FLOAT), .kinds = BIT(MEDIUM_WATER), .high = 1e4,
+     .unit = "m",
+     .doc =
+         "Length of the longest waves, which run with the wind and make the surface uneven as "
+         "seen from below, but cast no caustics; 0 = none longer than those about `wavelength`."},
     {KEY_OF(Medium, extent, "extent", KEY_FLOAT), .kinds = BIT(MEDIUM_EVERYWHERE), .high = 1e9,
      .unit = "m",
      .doc = "Radius of the sphere; 0 = three times the scene's radius. A large sphere attenuates "

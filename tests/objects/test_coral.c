@@ -6,6 +6,7 @@
 #include "testing.h"
 
 #include "base/random.h"
+#include "outtree/join.h"
 
 #include <math.h>
 #include <string.h>
@@ -193,6 +194,100 @@ static void cups_keep_their_distance_and_lean_to_the_tip(void **state)
     out_tree_free(tree);
 }
 
+static int64_t loops_of(const OutTree *tree)
+{
+    int64_t pieces, loops;
+    assert_true(out_tree_count_pieces(tree, &pieces, &loops, NULL));
+    assert_int_equal(pieces, 1);
+    return loops;
+}
+
+// Fans and plates become nets where tips fuse, more so with bridges; the skin of a net has no part
+// outside the room of its branches, however many of them leave one place.
+static void fused_branches_are_a_net(void **state)
+{
+    (void)state;
+    for (CoralForm form = CORAL_TABLE; form <= CORAL_FAN; form++) {
+        CoralParams params = small(form);
+        params.rule = CORAL_MEAN;
+        params.attractors = 4000;
+        params.length = params.length_tip = 0.02f * params.size;
+        params.branchlet = 0.03f * params.size;
+        params.levels = 0;
+        OutTree *apart = grow(&params, 1);
+        params.fuse = 0.03f * params.size;
+        OutTree *fused = grow(&params, 1);
+        params.bridge = 0.04f * params.size;
+        OutTree *net = grow(&params, 2);
+        assert_int_equal(loops_of(apart), 0);
+        assert_true(loops_of(fused) > 20);
+        assert_true(loops_of(net) > loops_of(fused) + 20);
+        Geometry geometry = geometry_of(&params, net, 1);
+        Aabb room = out_tree_bounds(net), skin = mesh_bounds(geometry.part[0].mesh);
+        float thick = 0.0f;
+        for (int64_t i = 0; i < net->count; i++) {
+            thick = fmaxf(thick, net->radius[i]);
+        }
+        assert_true(skin.low.x > room.low.x - 2.0f * thick);
+        assert_true(skin.high.x < room.high.x + 2.0f * thick);
+        assert_true(skin.high.y < room.high.y + 2.0f * thick);
+        geometry_clear(&geometry);
+        out_tree_free(apart);
+        out_tree_free(fused);
+        out_tree_free(net);
+    }
+}
+
+// A table's stalk stands off the middle of its plate by a share of half the size.
+static void a_stalk_may_stand_aside(void **state)
+{
+    (void)state;
+    CoralParams params = small(CORAL_TABLE);
+    params.rule = CORAL_MEAN;
+    for (int aside = 0; aside < 2; aside++) {
+        params.eccentric = 0.5f * (float)aside;
+        OutTree *tree = grow(&params, 1);
+        Aabb box = out_tree_bounds(tree);
+        Vec3 middle = vec3_lerp(box.low, box.high, 0.5f);
+        float off = hypotf(middle.x - params.position.x, middle.z - params.position.z);
+        assert_float_equal(off, 0.25f * (float)aside * params.size, 0.06f * params.size);
+        out_tree_free(tree);
+    }
+}
+
+// A level plate stays in a slab; an uneven one leaves it and does not fill its disc.
+static void a_plate_may_be_uneven(void **state)
+{
+    (void)state;
+    double height[2], filled[2];
+    for (int uneven = 0; uneven < 2; uneven++) {
+        CoralParams params = small(CORAL_TABLE);
+        params.rule = CORAL_MEAN;
+        params.plate = 0.01f * params.size;
+        params.branchlet = 0.01f * params.size;
+        params.uneven = (float)uneven;
+        OutTree *tree = grow(&params, 1);
+        double sum = 0.0, squares = 0.0;
+        int64_t count = 0, outside = 0;
+        for (int64_t i = 0; i < tree->count; i++) {
+            if (tree->birth[i] == 0) {
+                continue;
+            }
+            double y = (double)(tree->position[i].y / params.size);
+            sum += y;
+            squares += y * y;
+            count++;
+            outside += hypotf(tree->position[i].x, tree->position[i].z) > 0.45f * params.size;
+        }
+        height[uneven] = sqrt(squares / (double)count - sum * sum / (double)(count * count));
+        filled[uneven] = (double)outside / (double)count;
+        out_tree_free(tree);
+    }
+    assert_true(height[0] < 0.008);
+    assert_true(height[1] > 2.0 * height[0]);
+    assert_true(filled[1] < 0.8 * filled[0]);
+}
+
 static void a_cup_is_open_and_faces_outward(void **state)
 {
     (void)state;
@@ -232,6 +327,9 @@ int main(void)
         cmocka_unit_test(colonies_leave_a_bare_seam),
         cmocka_unit_test(growth_in_progress_is_a_part_of_the_whole),
         cmocka_unit_test(cups_keep_their_distance_and_lean_to_the_tip),
+        cmocka_unit_test(fused_branches_are_a_net),
+        cmocka_unit_test(a_stalk_may_stand_aside),
+        cmocka_unit_test(a_plate_may_be_uneven),
         cmocka_unit_test(a_cup_is_open_and_faces_outward),
         cmocka_unit_test(a_wrong_rule_is_one_clear_error),
     };

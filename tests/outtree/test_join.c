@@ -124,6 +124,35 @@ static void loops_are_counted_where_ends_meet(void **state)
     out_tree_free(tree);
 }
 
+// Two long branches of one tree side by side: a ladder whose rungs are `spacing` apart, none of
+// them in the corner where the way around would be too short, each a loop.
+static void sides_are_bridged_at_even_distances(void **state)
+{
+    (void)state;
+    OutTree *tree = out_tree_new(NULL);
+    add(tree, 0, 0, -1, 0);
+    int64_t left = 0, right = 0;
+    for (int k = 1; k <= 20; k++) {
+        left = add(tree, 0, (float)k, left, k);
+        right = add(tree, 1, (float)k, right, k);
+    }
+    int64_t nodes = tree->count, count, loops;
+    JoinParams params = {.reach = 1.2f, .least_path = 5.0f, .least_cosine = 0.9f};
+    assert_int_equal(join(tree, params), 0); // the tips head past each other
+    params.spacing = 4.0f;
+    int64_t joins = join(tree, params);
+    assert_true(joins == 4); // at 4, 8, 12 and 16, not at the tips
+    for (int64_t i = nodes; i < tree->count; i++) {
+        Vec3 from = tree->position[tree->parent[i]], to = tree->position[i];
+        assert_true(from.y == to.y && fabsf(from.x - to.x) == 1.0f);
+        assert_true(fmodf(from.y, 4.0f) == 0.0f);
+    }
+    assert_true(out_tree_count_pieces(tree, &count, &loops, NULL));
+    assert_int_equal(count, 1);
+    assert_int_equal(loops, 4);
+    out_tree_free(tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -132,6 +161,7 @@ int main(void)
         cmocka_unit_test(a_tip_does_not_join_its_own_branch),
         cmocka_unit_test(all_becomes_one),
         cmocka_unit_test(loops_are_counted_where_ends_meet),
+        cmocka_unit_test(sides_are_bridged_at_even_distances),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -140,12 +140,70 @@ static void test_brain(void **state)
     assert_true(shade.color.x > 0.2f && shade.color.z > 0.2f);
 }
 
+// Share of a wall of this slant whose colour fulfils what is asked.
+static float share_where(const Material *m, Vec3 normal, bool (*asked)(Vec3 color))
+{
+    int count = 0, met = 0;
+    for (int i = 0; i < 60; i++) {
+        for (int k = 0; k < 60; k++) {
+            Vec3 p = vec3(0.031f * (float)i, 0.4f, 0.031f * (float)k);
+            met += asked(shade_at(m, p, normal).color);
+            count++;
+        }
+    }
+    return (float)met / (float)count;
+}
+
+static bool is_blue(Vec3 c)
+{
+    return c.z > 2.0f * c.x;
+}
+
+static bool is_pink(Vec3 c)
+{
+    return c.x > 1.5f * c.y && c.z > c.y;
+}
+
+static bool is_pale(Vec3 c)
+{
+    return c.x > 0.25f && c.y > 0.2f;
+}
+
+// All of a boulder lives without moss; with more of it more is dead, undersides first; what is dead
+// turns pink with lichen; scars are pale marks on living tissue.
+static void test_reef(void **state)
+{
+    (void)state;
+    Material m = {.color = vec3(0.05f, 0.05f, 0.4f),
+                  .color2 = vec3(0.1f, 0.1f, 0.6f),
+                  .pattern = PATTERN_REEF,
+                  .pattern_scale = 0.0015f};
+    Vec3 up = vec3(0, 1, 0), down = vec3(0, -1, 0);
+    assert_true(share_where(&m, up, is_blue) == 1.0f);
+    float last = 1.0f;
+    for (int i = 1; i <= 4; i++) {
+        m.moss = 0.25f * (float)i;
+        float lives = share_where(&m, up, is_blue);
+        assert_true(lives < last);
+        assert_true(share_where(&m, down, is_blue) < lives + 0.02f);
+        last = lives;
+    }
+    assert_true(last < 0.02f);
+    assert_true(share_where(&m, up, is_pink) < 0.02f);
+    m.lichen = 1.0f;
+    assert_true(share_where(&m, up, is_pink) > 0.3f);
+    m.moss = m.lichen = 0.0f;
+    assert_true(share_where(&m, up, is_pale) == 0.0f);
+    m.scars = 1.0f;
+    float bitten = share_where(&m, up, is_pale);
+    assert_true(bitten > 0.01f && bitten < 0.3f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cells_on),
-        cmocka_unit_test(test_cells_on_have_no_steps),
-        cmocka_unit_test(test_stripes),
+        cmocka_unit_test(test_cells_on), cmocka_unit_test(test_cells_on_have_no_steps),
+        cmocka_unit_test(test_stripes),  cmocka_unit_test(test_reef),
         cmocka_unit_test(test_brain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

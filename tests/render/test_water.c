@@ -145,10 +145,41 @@ static void sampling_agrees_with_brute_force(void **state)
     world_free(world);
 }
 
+// Longer waves tilt the surface that is seen by as much as they are said to, over distances that
+// the tile's waves do not have; the network stays as it is.
+static void swell_is_seen_but_casts_nothing(void **state)
+{
+    (void)state;
+    Run run = run_default();
+    Medium medium = medium_default(MEDIUM_WATER);
+    medium.caustics = 1.0f;
+    medium.wavelength = 0.5f;
+    Vec3 sun = vec3_normalize(vec3(0.5f, 0.8f, 0.2f));
+    Water *plain = water_new(&medium, sun, 0.00465f, 5.0f, 1, &run, NULL);
+    medium.swell = 8.0f;
+    Water *swell = water_new(&medium, sun, 0.00465f, 5.0f, 1, &run, NULL);
+    double squares = 0.0, far_apart = 0.0;
+    const int count = 4000;
+    for (int i = 0; i < count; i++) {
+        Vec3 p = vec3(0.37f * (float)i, -1.0f, 0.23f * (float)i), q = vec3_add(p, vec3(4, 0, 0));
+        assert_float_equal(water_caustic(plain, p), water_caustic(swell, p), 0.0f);
+        assert_true(vec3_distance(water_normal(plain, p), water_normal(plain, q)) < 1e-3f);
+        Vec3 a = water_normal(plain, p), b = water_normal(swell, p), c = water_normal(swell, q);
+        squares +=
+            pow((double)(b.x / b.y - a.x / a.y), 2) + pow((double)(b.z / b.y - a.z / a.y), 2);
+        far_apart += (double)vec3_distance(b, c);
+    }
+    assert_float_equal((float)sqrt(squares / count), 0.12f, 0.01f);
+    assert_true(far_apart / count > 0.05);
+    water_free(plain);
+    water_free(swell);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(light_bends_both_ways_alike),
+        cmocka_unit_test(swell_is_seen_but_casts_nothing),
         cmocka_unit_test(network_has_mean_one),
         cmocka_unit_test(sky_lights_the_bottom_by_fresnel),
         cmocka_unit_test(sampling_agrees_with_brute_force),

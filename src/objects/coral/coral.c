@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "grow/colonize.h"
 #include "objects/common/element.h"
+#include "outtree/join.h"
 #include "outtree/radii.h"
 #include "shape/points.h"
 
@@ -13,13 +14,15 @@
 
 enum { STREAM_LUMP_TURN = 1, STREAM_LUMP_SIZE = 2 };                     // of a boulder's lump
 enum { STREAM_POINT_X = 0, STREAM_POINT_Y = 1, STREAM_POINT_LIGHT = 2 }; // of a fan's attractor
-enum { STREAM_BRANCHLETS = 77 };                                         // of a node's id
+enum { STREAM_TILT_X = 0, STREAM_TILT_Z = 1, STREAM_LOBES = 2 };         // of an uneven plate
+enum { STREAM_LOBE_TURN = 0, STREAM_LOBE_WAY = 1, STREAM_LOBE_WIDTH = 2, STREAM_LOBE_RISE = 3 };
+enum { STREAM_BRANCHLETS = 77 }; // of a node's id
 // Of a node's branchlets; those of attractor k start at STREAMS_A_BRANCHLET * k.
 enum { STREAM_RISE = 0, STREAM_X = 1, STREAM_Z = 2, STREAMS_A_BRANCHLET = 4 };
 
 #define GOLDEN_ANGLE 2.39996323f
 
-enum { STEM_NODES = 4, MOST_COLONIES = 256 };
+enum { STEM_NODES = 4, MOST_COLONIES = 256, PLATE_LOBES = 12 };
 
 // State of a coral's growth.
 typedef struct Growing {
@@ -84,28 +87,83 @@ Envelope *coral_base(const CoralParams *p, uint64_t seed, const Run *run, Error 
     return envelope_new(&params, run, e);
 }
 
-// A dome over each colony's foot, all joined; a disc for tables.
-static Envelope *room(const CoralParams *p, const Run *run, Error *e)
+// The middle of a table's plate, which its stalk may miss.
+static Vec3 plate_middle(const CoralParams *p, int colony, uint64_t seed)
 {
-    Shape *shapes = memory_alloc(p->colonies + 1, sizeof *shapes, e);
+    Vec3 foot = colony_foot(p, colony);
+    if (p->eccentric <= 0.0f) {
+        return foot;
+    }
+    float s, c;
+    exact_sincos(2.0f * PI_F * random_unit(random_key(seed, STREAM_CORAL_ASIDE + (uint64_t)colony)),
+                 &s, &c);
+    return vec3_madd(foot, 0.5f * p->size * p->eccentric, vec3(c, 0, s));
+}
+
+// An uneven plate about `middle`: a disc with lobes around it, all tilted together, each lobe at a
+// height of its own. Shares below are of the half size, for an unevenness of 1.
+static int uneven_plate(const CoralParams *p, Vec3 middle, uint64_t seed, Shape *shapes)
+{
+    float r = 0.5f * p->size, u = p->uneven, half = 0.5f * p->plate;
+    float tilt_x = 9.0f * u * random_range(random_key(seed, STREAM_TILT_X), -1.0f, 1.0f);
+    float tilt_z = 9.0f * u * random_range(random_key(seed, STREAM_TILT_Z), -1.0f, 1.0f);
+    Transform tilt = transform_compose(vec3_splat(0), vec3(tilt_x, 0, tilt_z), vec3_splat(1));
+    for (uint64_t i = 0; i < PLATE_LOBES; i++) {
+        uint64_t key = random_key(random_key(seed, STREAM_LOBES), i);
+        float s, c, wide = r * (1.0f - 0.4f * u);
+        Vec3 off = vec3_splat(0);
+        if (i > 0) {
+            exact_sincos((float)i * GOLDEN_ANGLE +
+                             random_range(random_key(key, STREAM_LOBE_TURN), -0.5f, 0.5f),
+                         &s, &c);
+            float lobe = u * r * random_range(random_key(key, STREAM_LOBE_WIDTH), 0.3f, 0.6f);
+            float way = r - lobe - 0.25f * u * r * random_unit(random_key(key, STREAM_LOBE_WAY));
+            float rise =
+                0.05f * u * r * random_range(random_key(key, STREAM_LOBE_RISE), -0.4f, 1.0f);
+            off = transform_vector(&tilt, vec3(way * c, rise, way * s));
+            wide = lobe;
+        }
+        shapes[i] = (Shape){.kind = SHAPE_ELLIPSOID,
+                            .op = SHAPE_UNION,
+                            .size = vec3(wide, half, wide),
+                            .transform = transform_compose(vec3_add(middle, off),
+                                                           vec3(tilt_x, 0, tilt_z), vec3_splat(1))};
+    }
+    return PLATE_LOBES;
+}
+
+// A dome over each colony's foot, all joined; a disc for tables.
+static Envelope *room(const CoralParams *p, uint64_t seed, const Run *run, Error *e)
+{
+    Shape *shapes = memory_alloc(p->colonies * PLATE_LOBES + 1, sizeof *shapes, e);
     if (!shapes) {
         return NULL;
     }
     float r = 0.5f * p->size;
     int count = 0;
     for (int i = 0; i < p->colonies; i++) {
-        Vec3 foot = colony_foot(p, i);
         bool table = p->form == CORAL_TABLE;
+        Vec3 foot = table ? plate_middle(p, i, seed) : colony_foot(p, i);
         float middle = (table ? 0.9f : 0.5f) * p->height;
-        float half = table ? 0.022f * p->size : 0.52f * p->height;
-        shapes[count++] = ellipsoid(vec3_add(foot, vec3(0, middle, 0)), vec3(r, half, r));
+        float half = table ? 0.5f * p->plate : 0.52f * p->height;
+        foot.y += middle;
+        if (table && p->uneven > 0.0f) {
+            uint64_t own = random_key(seed, STREAM_CORAL_PLATE + (uint64_t)i);
+            count += uneven_plate(p, foot, own, shapes + count);
+        } else {
+            shapes[count++] = ellipsoid(foot, vec3(r, half, r));
+        }
     }
     if (p->form == CORAL_BRANCHING) { // nothing below the ground
         shapes[count] = (Shape){
             .kind = SHAPE_HALF_SPACE, .op = SHAPE_DIFFERENCE, .transform = transform_identity()};
         shapes[count++].transform.m[1][3] = p->position.y + 0.06f * p->size;
     }
-    EnvelopeParams params = {shapes, count, p->size / 64.0f};
+    float voxel = p->size / 64.0f;
+    if (p->form == CORAL_TABLE) { // a few across the plate
+        voxel = fminf(voxel, 0.4f * p->plate);
+    }
+    EnvelopeParams params = {shapes, count, voxel};
     Envelope *envelope = envelope_new(&params, run, e);
     free(shapes);
     return envelope;
@@ -230,9 +288,9 @@ static ColonizeParams colonize_params(const Growing *g, double spacing)
     c.room = g->recipe->room;
     c.noise = p->noise;
     c.tropism = vec3(0, p->form == CORAL_BRANCHING ? 0.12f * p->light : 0.0f, 0);
-    // a table's plate acts as a surface: its attractors' normals point up
-    c.on_surface =
-        p->form == CORAL_TABLE || p->form == CORAL_ENCRUSTING || p->form == CORAL_MASSIVE;
+    // a level plate acts as a surface: its attractors' normals point up
+    c.on_surface = (p->form == CORAL_TABLE && p->uneven <= 0.0f) || p->form == CORAL_ENCRUSTING ||
+                   p->form == CORAL_MASSIVE;
     c.length_near = p->length;
     c.length_far = p->length_tip;
     c.sector_angle = p->group;
@@ -263,10 +321,22 @@ static bool colonize_points(Growing *g, const PointSet *points, ColonizeParams *
     return true;
 }
 
+// The attractor of a plate's node that leads branchlet `which`; unit: m, of which a branchlet is at
+// most 0.05 high.
+static Vec3 branchlet_end(Vec3 foot, float unit, uint64_t key, uint64_t which)
+{
+    uint64_t first = STREAMS_A_BRANCHLET * which;
+    float rise = unit * random_range(random_key(key, first + STREAM_RISE), 0.016f, 0.05f);
+    Vec3 d = vec3(random_range(random_key(key, first + STREAM_X), -0.012f, 0.012f) * unit, rise,
+                  random_range(random_key(key, first + STREAM_Z), -0.012f, 0.012f) * unit);
+    return vec3_add(foot, d);
+}
+
 // Grows upright branchlets on a table's plate, toward attractors just above it.
 static bool grow_branchlets(Growing *g, int32_t first_step, Error *e)
 {
     const CoralParams *p = g->params;
+    float unit = p->branchlet > 0.0f ? p->branchlet / 0.05f : p->size;
     PointSet *points = points_new(e);
     int64_t plate = g->tree->count;
     bool done = points;
@@ -276,16 +346,8 @@ static bool grow_branchlets(Growing *g, int32_t first_step, Error *e)
             continue;
         }
         for (uint64_t k = 0; done && k < 4; k++) {
-            float rise =
-                p->size *
-                random_range(random_key(key, STREAMS_A_BRANCHLET * k + STREAM_RISE), 0.016f, 0.05f);
-            Vec3 d = vec3(
-                random_range(random_key(key, STREAMS_A_BRANCHLET * k + STREAM_X), -0.012f, 0.012f) *
-                    p->size,
-                rise,
-                random_range(random_key(key, STREAMS_A_BRANCHLET * k + STREAM_Z), -0.012f, 0.012f) *
-                    p->size);
-            done = points_add(points, vec3_add(g->tree->position[i], d), vec3(0, 1, 0), key + k, e);
+            Vec3 end = branchlet_end(g->tree->position[i], unit, key, k);
+            done = points_add(points, end, vec3(0, 1, 0), key + k, e);
         }
     }
     if (done) {
@@ -295,9 +357,9 @@ static bool grow_branchlets(Growing *g, int32_t first_step, Error *e)
         c.seed = random_key(g->recipe->seed, STREAM_CORAL_BRANCHLETS);
         c.room = g->recipe->room;
         c.first_step = first_step;
-        c.step = 0.011f * p->size;
-        c.kill = 0.0125f * p->size;
-        c.influence = 0.045f * p->size;
+        c.step = 0.011f * unit;
+        c.kill = 0.0125f * unit;
+        c.influence = 0.045f * unit;
         c.tropism = vec3(0, 0.7f, 0);
         c.noise = 0.07f;
         c.max_children = 2;
@@ -307,10 +369,28 @@ static bool grow_branchlets(Growing *g, int32_t first_step, Error *e)
     return done;
 }
 
+// Fuses tips with the branches ahead of them. A loop is at least as long around as a round mesh
+// that is `fuse` wide.
+static bool fuse_tips(Growing *g, int32_t *last_step, Error *e)
+{
+    float reach = g->params->fuse;
+    if (reach <= 0.0f) {
+        return true;
+    }
+    JoinParams join = {.reach = reach,
+                       .least_path = 2.2f * reach,
+                       .least_cosine = -0.2f,
+                       .spacing = g->params->bridge};
+    bool done = out_tree_join_tips(g->tree, &join, NULL, g->recipe->run, e);
+    int32_t last = out_tree_last_birth(g->tree);
+    *last_step = last > *last_step ? last : *last_step;
+    return done;
+}
+
 static bool grow_in_room(Growing *g, const PointSet *points, Error *e)
 {
     ColonizeParams c = colonize_params(g, points_spacing(points));
-    return colonize_points(g, points, &c, e) &&
+    return colonize_points(g, points, &c, e) && fuse_tips(g, &c.first_step, e) &&
            (g->params->form != CORAL_TABLE || grow_branchlets(g, c.first_step, e));
 }
 
@@ -329,7 +409,7 @@ static bool grow_upright(Growing *g, Error *e)
     if (p->form == CORAL_FAN) {
         points = flat_room(p, seed, e);
     } else {
-        Envelope *envelope = room(p, g->recipe->run, e);
+        Envelope *envelope = room(p, g->recipe->seed, g->recipe->run, e);
         bool seen = envelope && growth_observe(g->recipe, NULL, envelope, NULL, e);
         points = seen ? scatter(envelope, p, SCATTER_VOLUME, p->attractors * p->colonies, seed,
                                 g->recipe->run, e)

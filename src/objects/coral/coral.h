@@ -51,6 +51,12 @@ typedef struct CoralParams {
     float light;              // 0..1: how much denser attractors are above than below
     float tip_radius;         // m; 0 = the form's own share of the size
     float exponent;           // of the radii: 4 keeps branches nearly as thick as their tips
+    float fuse;               // m over which tips fuse with branches near them; 0 = they do not
+    float bridge;             // m along branches between bridges to others; 0 = tips alone fuse
+    float branchlet;          // m: height of a table's branchlets; 0 = 0.05 of the size
+    float plate;              // m: thickness of a table's plate; 0 = 0.044 of the size
+    float eccentric;          // 0..1: how far a table's stalk stands off its middle, in half sizes
+    float uneven;             // 0..1: how far a table's plate is tilted, lobed and in tiers
     float pale;               // m from a growing tip (or margin) where it is pale; 0 = 4 tip radii
     PolypParams polyps;
     Shape *base; // of encrusting and massive forms: the rock; empty = a boulder of the size
@@ -61,7 +67,7 @@ typedef struct CoralParams {
 enum { CORAL_SKIN, CORAL_POLYPS, CORAL_ROCK }; // roles of materials
 
 // Streams of the object's seed; colony i uses i for its root's id, and VARIATIONS, COLONIES and
-// STEMS + i. POLYPS is also a stream of COLONIES + i.
+// STEMS + i, ASIDE + i, PLATE + i. POLYPS is also a stream of COLONIES + i.
 enum {
     STREAM_CORAL_POINTS = 2,
     STREAM_CORAL_GROWTH = 3,
@@ -73,7 +79,9 @@ enum {
     STREAM_CORAL_BOULDER = 40,
     STREAM_CORAL_VARIATIONS = 50,
     STREAM_CORAL_COLONIES = 60,
-    STREAM_CORAL_STEMS = 90
+    STREAM_CORAL_STEMS = 90,
+    STREAM_CORAL_ASIDE = 160,
+    STREAM_CORAL_PLATE = 230
 };
 
 CoralParams coral_params_default(void); // staghorn, half a metre wide

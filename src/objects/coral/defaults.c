@@ -115,6 +115,7 @@ CoralParams coral_params_resolve(const CoralParams *params)
     fill(&p.length, form->length * p.size);
     fill(&p.length_tip, form->length_tip * p.size);
     fill(&p.tip_radius, form->tip_radius * p.size);
+    fill(&p.plate, 2.0f * (0.022f * p.size)); // doubling and halving change no bit
     fill(&p.pale, 4.0f * p.tip_radius);
     fill(&p.polyps.diameter, 0.0022f * p.size / 0.5f);
     fill(&p.polyps.spacing, 1.6f * p.polyps.diameter);

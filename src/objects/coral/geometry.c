@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "objects/coral/crust.h"
 #include "objects/coral/polyps.h"
+#include "outtree/join.h"
 #include "skin/skin.h"
 
 #include <stdlib.h>
@@ -14,8 +15,8 @@ enum { YOUTH_STEPS = 1000 };
 
 // A copy of the tree whose births are the closeness to a growing tip (YOUTH_STEPS at the tip, 0
 // from `pale` metres on): the colour of living coral shows the age of its tissue, not of its
-// skeleton.
-static OutTree *with_youth(const OutTree *tree, float pale, Error *e)
+// skeleton. Tips that have fused (may be NULL) grow no more.
+static OutTree *with_youth(const OutTree *tree, const bool *fused, float pale, Error *e)
 {
     OutTree *copy = out_tree_copy(tree, e);
     float *to_tip = copy ? memory_alloc(tree->count, sizeof *to_tip, e) : NULL;
@@ -27,7 +28,8 @@ static OutTree *with_youth(const OutTree *tree, float pale, Error *e)
         to_tip[i] = INFINITY;
     }
     for (int64_t i = tree->count - 1; i >= 0; i--) {
-        to_tip[i] = to_tip[i] == INFINITY ? 0.0f : to_tip[i];
+        bool ends = to_tip[i] == INFINITY && !(fused && fused[i]);
+        to_tip[i] = ends ? 0.0f : to_tip[i];
         int32_t parent = tree->parent[i];
         if (parent >= 0) {
             float way = to_tip[i] + vec3_distance(tree->position[i], tree->position[parent]);
@@ -40,14 +42,73 @@ static OutTree *with_youth(const OutTree *tree, float pale, Error *e)
     return copy;
 }
 
+// The thickest child of each node, -1 without one: tree->count numbers, which the caller frees.
+static int32_t *find_thickest(const OutTree *tree, Error *e)
+{
+    int32_t *thickest = memory_alloc(tree->count, sizeof *thickest, e);
+    for (int64_t i = 0; thickest && i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        thickest[i] = -1;
+        if (parent >= 0 &&
+            (thickest[parent] < 0 || tree->radius[i] > tree->radius[thickest[parent]])) {
+            thickest[parent] = (int32_t)i;
+        }
+    }
+    return thickest;
+}
+
+// Copies node i, below `parent` (-1: below a copy of its own parent, as thin as the node).
+static int64_t copy_twig_node(OutTree *to, int64_t parent, const OutTree *from, int64_t i, Error *e)
+{
+    int32_t above = from->parent[i];
+    if (parent < 0 && above >= 0) {
+        parent = out_tree_copy_node(to, -1, from, above, e);
+        if (parent < 0) {
+            return -1;
+        }
+        to->radius[parent] = from->radius[i];
+    }
+    return out_tree_copy_node(to, parent, from, i, e);
+}
+
+// The same branches as unforked twigs, each of which begins inside the one it leaves: a lattice has
+// more branches than the skin of a thick one has room for mouths, and where a branch has fused
+// it ends inside another anyway.
+static OutTree *part_twigs(const OutTree *tree, Error *e)
+{
+    int32_t *thickest = find_thickest(tree, e);
+    int64_t *copy = thickest ? memory_alloc(tree->count, sizeof *copy, e) : NULL;
+    OutTree *parted = copy ? out_tree_new(e) : NULL;
+    bool done = parted;
+    for (int64_t i = 0; done && i < tree->count; i++) {
+        int32_t parent = tree->parent[i];
+        bool goes_on = parent >= 0 && thickest[parent] == (int32_t)i;
+        copy[i] = copy_twig_node(parted, goes_on ? copy[parent] : -1, tree, i, e);
+        done = copy[i] >= 0;
+    }
+    free(thickest);
+    free(copy);
+    if (!done) {
+        out_tree_free(parted);
+        return NULL;
+    }
+    return parted;
+}
+
 static Mesh *branches(const OutTree *tree, const CoralParams *p, const Run *run, Error *e)
 {
-    OutTree *young = with_youth(tree, p->pale, e);
+    bool net = p->fuse > 0.0f;
+    bool *fused = net ? out_tree_find_joined(tree, e) : NULL;
+    OutTree *young = net && !fused ? NULL : with_youth(tree, fused, p->pale, e);
+    OutTree *twigs = young && net ? part_twigs(young, e) : NULL;
     SkinParams skin = skin_params_default();
     skin.levels = p->levels;
     skin.ring_spacing = 0.8f;
-    Mesh *mesh = young ? skin_tree(young, &skin, run, e) : NULL;
+    const OutTree *shown = net ? twigs : young;
+    Mesh *mesh = shown ? skin_tree(shown, &skin, run, e) : NULL;
     out_tree_free(young);
+    out_tree_free(twigs);
+    free(fused);
     return mesh;
 }
 

@@ -77,6 +77,25 @@ static const Key CORAL_KEYS[] = {
     {KEY_OF(CoralParams, exponent, "exponent", KEY_FLOAT), .low = 1, .high = 10,
      .doc = "Exponent e of the radii, r_parent^e = sum of r_child^e; 4 keeps branches nearly as "
             "thin as their tips."},
+    {KEY_OF(CoralParams, fuse, "fuse", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Distance over which the tips of branches fuse with other branches ahead of them "
+            "(anastomosis), which makes the net of a sea fan and the lattice of a table's plate; "
+            "0 = they stay apart. Forms branching, table and fan."},
+    {KEY_OF(CoralParams, bridge, "bridge", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc =
+         "With fuse: distance along branches between bridges that grow from their sides to other "
+         "branches within fuse; 0 = tips alone fuse."},
+    {KEY_OF(CoralParams, branchlet, "branchlet", KEY_FLOAT), .high = 10, .unit = "m",
+     .doc = "Form table: height of the upright branchlets, which also sets their spacing; 0 = 0.05 "
+            "of the size."},
+    {KEY_OF(CoralParams, plate, "plate", KEY_FLOAT), .high = 10, .unit = "m",
+     .doc = "Form table: thickness of the space in which the plate grows; 0 = 0.044 of the size."},
+    {KEY_OF(CoralParams, eccentric, "eccentric", KEY_FLOAT), .high = 1,
+     .doc = "Form table: distance of the stalk from the plate's middle, as a fraction of half the "
+            "size."},
+    {KEY_OF(CoralParams, uneven, "uneven", KEY_FLOAT), .high = 1,
+     .doc = "Form table: how uneven the plate is: tilted, with a lobed margin, its lobes lying a "
+            "little above and below each other; 0 = a level disc."},
     {KEY_OF(CoralParams, pale, "pale", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Distance from a growing tip over which the tissue is pale; 0 = 4 tip radii."},
     {KEY_OF(CoralParams, polyps, "polyps", KEY_GROUP), .table = &POLYP_TABLE,

@@ -1,5 +1,6 @@
 // An imported mesh as a kind of object.
 #include "objects/kind.h"
+#include "objects/mesh/bend.h"
 #include "objects/mesh/mesh.h"
 #include "shape/import.h"
 
@@ -8,6 +9,9 @@ static Mesh *import(const MeshParams *params, const Run *run, Error *e)
 {
     Transform transform = transform_compose(params->position, params->rotation, params->scale);
     Mesh *mesh = mesh_import(params->file, run, e);
+    if (mesh) {
+        mesh_bend(mesh, params->bend_front, params->bend_back);
+    }
     if (!mesh) {
         error_key(e, "file");
     } else if (!mesh_transform(mesh, &transform, e)) {

@@ -8,6 +8,7 @@
 typedef struct MeshParams {
     char *file;
     Vec3 position, rotation, scale; // scale, then rotation (degrees), then translation
+    float bend_front, bend_back;    // degrees: see bend.h; before all of those
     bool smooth;                    // compute smooth normals if the file has none
     HoarParams hoar;
 } MeshParams;

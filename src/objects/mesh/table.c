@@ -13,6 +13,13 @@ static const Key MESH_KEYS[] = {
      .doc = "Rotation about x, then y, then z."},
     {KEY_OF(MeshParams, scale, "scale", KEY_VECTOR), .flags = KEY_SPLAT, .count = 3,
      .doc = "Scale along x, y and z, applied before the rotation; negative values mirror."},
+    {KEY_OF(MeshParams, bend_front, "bend_front", KEY_FLOAT), .low = -170, .high = 170,
+     .unit = "degrees",
+     .doc = "Bends the half of the mesh at its high x, as a fish bends its head: its end is turned "
+            "by so much, toward z. Before scale."},
+    {KEY_OF(MeshParams, bend_back, "bend_back", KEY_FLOAT), .low = -170, .high = 170,
+     .unit = "degrees",
+     .doc = "The same of the half at the low x, such as its tail, toward z, too."},
     {KEY_OF(MeshParams, hoar, "hoar", KEY_GROUP), .table = &hoar_table,
      .doc = "Hoar frost on the surface; faces must face outward."},
     {0},

@@ -46,6 +46,8 @@ typedef enum PatternKind {
     PATTERN_NOISE,  // plain fractal noise between color and color2
     PATTERN_CORALLITE, // coral: cups with raised rims, paler (color2) where it grows
     PATTERN_BRAIN,     // brain coral: winding ridges, color2 in the valleys
+    PATTERN_REEF,      // a living boulder of coral: fine cups, bites, dead patches with turf and
+                       // coralline algae
     PATTERN_YOUTH,     // color2 where a branch grows, color where it is old
     PATTERN_SAND,      // ripples on a sea floor
     PATTERN_MOUNTAIN,  // rock, scree, grass and snow by altitude, slope and wetness of the land

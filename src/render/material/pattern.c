@@ -165,6 +165,7 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_GROUND] = pattern_ground,
     [PATTERN_LEAF] = pattern_leaf,
     [PATTERN_CORALLITE] = pattern_corallite,
+    [PATTERN_REEF] = pattern_reef,
     [PATTERN_YOUTH] = pattern_youth,
     [PATTERN_BRAIN] = pattern_brain,
     [PATTERN_SAND] = pattern_sand,

@@ -50,6 +50,7 @@ void pattern_leaf(const Material *material, const SurfacePoint *point, PatternSh
 void pattern_season(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_corallite(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_brain(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_reef(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_youth(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_hills(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_coast(const Material *material, const SurfacePoint *point, PatternShade *shade);

@@ -24,6 +24,7 @@ typedef struct Medium {
     float falloff;               // m over which the density falls to 1/e; MEDIUM_LAYER
     float caustics;              // MEDIUM_WATER: strength of the sun's network of light, 0..1
     float wavelength;            // MEDIUM_WATER: m, of the waves; 0 = a third of the depth
+    float swell;                 // MEDIUM_WATER: m, length of the longest waves; 0 = no longer ones
     float extent;                // m, radius; MEDIUM_EVERYWHERE; 0 = three times the scene's
 } Medium;
 

@@ -6,11 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STREAM_WAVES = 0xca57 };                                     // of the scene's seed
-enum { STREAM_OCTAVE = 0, STREAM_DIRECTION = 1, STREAM_PHASE = 2 }; // of a wave
+enum { STREAM_WAVES = 0xca57, STREAM_SWELL = 0x53e1, STREAM_WIND = 0x3149 }; // of the scene's seed
+enum { STREAM_OCTAVE = 0, STREAM_DIRECTION = 1, STREAM_PHASE = 2 };          // of a wave
 
 enum {
     WAVES = 28,
+    SWELLS = 14,
     TILE_WAVES = 8,   // wavelengths along a side of the tile
     TILE_CELLS = 512, // along a side of a layer
     GRID = 2 * TILE_CELLS,
@@ -30,6 +31,8 @@ struct Water {
     float deepest;        // m: of the last layer
     float lean_x, lean_z; // m that sunlight moves aside in a metre down
     Wave wave[WAVES];
+    Wave swell[SWELLS]; // longer waves, which the tile does not hold
+    int swells;
     float *layer; // owned: LAYERS of TILE_CELLS * TILE_CELLS; NULL without a sun
 };
 
@@ -100,15 +103,46 @@ static void make_waves(Water *water, float depth, uint64_t seed)
     }
 }
 
+// Waves of lengths from twice the network's to the swell's, all as steep, within 60 degrees of the
+// wind. They are too long to focus sunlight at the depth of the network.
+static void make_swell(Water *water, float shortest, float longest, uint64_t seed)
+{
+    const float steep = 0.045f; // slope of each; root mean square of all: 0.12
+    float wind = 2.0f * PI_F * random_unit(random_key(seed, STREAM_WIND));
+    water->swells = longest > shortest ? SWELLS : 0;
+    for (int i = 0; i < water->swells; i++) {
+        uint64_t key = random_key(random_key(seed, STREAM_SWELL), (uint64_t)i);
+        float step = random_range(random_key(key, STREAM_OCTAVE), 0.0f, 1.0f);
+        float k = 2.0f * PI_F / (shortest * powf(longest / shortest, ((float)i + step) / SWELLS));
+        float angle = wind + random_range(random_key(key, STREAM_DIRECTION), -1.05f, 1.05f);
+        water->swell[i] = (Wave){k * cosf(angle), k * sinf(angle), steep / k,
+                                 2.0f * PI_F * random_unit(random_key(key, STREAM_PHASE))};
+    }
+}
+
+static void add_slopes(const Wave *wave, int count, Vec3 point, float *x, float *z)
+{
+    for (int i = 0; i < count; i++) {
+        const Wave *w = &wave[i];
+        float slope = w->height * cosf(w->kx * point.x + w->kz * point.z + w->phase);
+        *x += slope * w->kx;
+        *z += slope * w->kz;
+    }
+}
+
 Vec3 water_normal(const Water *water, Vec3 point)
 {
     float x = 0.0f, z = 0.0f;
-    for (int i = 0; i < WAVES; i++) {
-        const Wave *w = &water->wave[i];
-        float slope = w->height * cosf(w->kx * point.x + w->kz * point.z + w->phase);
-        x += slope * w->kx;
-        z += slope * w->kz;
-    }
+    add_slopes(water->wave, WAVES, point, &x, &z);
+    add_slopes(water->swell, water->swells, point, &x, &z);
+    return vec3_normalize(vec3(-x, 1.0f, -z));
+}
+
+// Of the waves that the tile repeats.
+static Vec3 tile_normal(const Water *water, Vec3 point)
+{
+    float x = 0.0f, z = 0.0f;
+    add_slopes(water->wave, WAVES, point, &x, &z);
     return vec3_normalize(vec3(-x, 1.0f, -z));
 }
 
@@ -122,7 +156,7 @@ typedef struct SunRay {
 
 static SunRay sun_ray(const Water *water, Vec3 sun, float x, float z)
 {
-    Vec3 normal = water_normal(water, vec3(x, 0.0f, z));
+    Vec3 normal = tile_normal(water, vec3(x, 0.0f, z));
     SunRay ray = {x, z, 0.0f, 0.0f, 0.0f};
     float cosine = vec3_dot(sun, normal);
     if (cosine <= 1e-3f) {
@@ -239,6 +273,7 @@ Water *water_new(const Medium *medium, Vec3 sun, float sun_radius, float depth, 
     water->tile = wavelength * TILE_WAVES;
     water->deepest = DEEPEST * depth;
     make_waves(water, depth, seed);
+    make_swell(water, 2.0f * wavelength, medium->swell, seed);
     WaterPassage passage;
     if (medium->caustics > 0.0f && water_enter(sun, &passage)) {
         water->lean_x = -passage.direction.x / passage.direction.y;

@@ -1,9 +1,10 @@
 // The surface of water above the scene, seen from below: sky and sun refracted into the water, and
 // the caustics of the waves.
 //
-// The waves are a sum of sines, periodic over a tile. Rays of the sun are refracted at a fine grid
-// of points and counted where they arrive in layers of depth. This is the inverse Jacobian of the
-// refraction summed over its branches, so each layer has the mean 1.
+// The waves are a sum of sines, periodic over a tile, and of longer ones that are only seen. Rays
+// of the sun are refracted at a fine grid of points and counted where they arrive in layers of
+// depth. This is the inverse Jacobian of the refraction summed over its branches, so each layer has
+// the mean 1.
 #ifndef RAMIFY_RENDER_MEDIUM_WATER_H
 #define RAMIFY_RENDER_MEDIUM_WATER_H
 
