@@ -116,7 +116,7 @@ Spectrum atmosphere_radiance(const Atmosphere *a, Vec3 direction, Vec3 sun)
     AirRay ray = ray_from(a, 0.0, direction, sun);
     double length = air_distance_to_top(ray.r, ray.mu);
     air_meets_ground(ray.r, ray.mu, &length);
-    AirMarch m = air_march(&a->model, &a->glow, true, &ray, length, 48);
+    AirMarch m = air_march(&a->model, &a->glow, true, &ray, length, 32);
     Spectrum solar = atmosphere_solar_irradiance(), light;
     for (int i = 0; i < SPECTRUM_BANDS; i++) {
         light.v[i] = (m.sunlit.v[i] + m.glow.v[i]) * solar.v[i];
