@@ -90,7 +90,8 @@ static BarkLook young_flakes(const Material *m, const StemPlace *place, float sc
     float value = 0.90f + 0.30f * streak + 0.16f * (broad - 0.5f) + 0.22f * seen * (fine - 0.5f);
     Vec3 buff = vec3_mul(m->color2, vec3(0.86f, 1.12f, 1.40f));
     Vec3 color = vec3_scale(vec3_lerp(m->color2, buff, 0.75f * aged), value);
-    color = vec3_lerp(color, vec3_scale(m->color, 1.15f * value), 0.6f * worn * (0.4f + aged));
+    color = vec3_lerp(color, vec3_scale(m->color, 1.15f * value),
+                      clampf(1.5f * worn * (0.4f + aged), 0.0f, 0.75f));
     float light = fmaxf(lip, 0.7f * lip2) * seen, dark = fmaxf(under, 0.7f * under2);
     color = vec3_lerp(color, vec3_mul(color, vec3(1.25f, 1.35f, 1.45f)), 0.55f * light);
     look.color = vec3_scale(color, 1.0f - 0.50f * dark * lerpf(0.5f, 1.0f, seen));
@@ -110,8 +111,8 @@ static float age_of(const Material *m, const StemPlace *place, float scale, floa
     float radius = place->radius * (1.0f + 0.35f * turn);
     float thick = smoothstepf(0.075f, 0.125f, radius);
     if (m->bark_height > 0.0f) {
-        float up = place->p.z / m->bark_height + 0.30f * turn;
-        thick *= smoothstepf(1.15f, 0.85f, up);
+        float up = place->p.z / m->bark_height + 0.65f * turn;
+        thick *= smoothstepf(1.6f, 0.5f, up); // plates end at about half of it, in tongues
     }
     float foot = smoothstepf(1.3f, 0.7f, place->p.z / scale + 0.2f * turn);
     return fmaxf(thick, fmaxf(foot, stem_root(place)));
@@ -122,7 +123,7 @@ BarkLook bark_plates(const Material *m, const StemPlace *place, float scale, flo
     Vec3 wind;
     noise_solid(stem_lookup(place, 0.16f * scale, 0.5f * scale), 40, &wind);
     float seen = pattern_detail(0.03f * scale, footprint);
-    float turn = noise_solid(stem_lookup(place, 0.25f * scale, 0.9f * scale), 46, NULL) +
+    float turn = noise_solid(stem_lookup(place, 0.17f * scale, 1.0f * scale), 46, NULL) +
                  0.5f * noise_solid(stem_lookup(place, 0.06f * scale, 0.22f * scale), 49, NULL);
     float age = age_of(m, place, scale, turn), old = smoothstepf(0.4f, 0.6f, age);
     float coarse = smoothstepf(0.10f, 0.15f, place->radius);
