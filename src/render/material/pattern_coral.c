@@ -174,8 +174,8 @@ void pattern_reef(const Material *m, const SurfacePoint *point, PatternShade *sh
     Vec3 living =
         vec3_lerp(shade->color, skeleton, fmaxf(0.85f * cover.bite, 0.55f * cover.margin));
     shade->color = vec3_lerp(living, algae_color(point, normal, cover.turf), cover.dead);
-    if (cover.dead > 0.0f) {
-        PatternOctaves rough = pattern_octaves(point, 0.022f, 4, 0.55f, 1.0f, 50);
-        shade->normal = pattern_tilt(shade->normal, vec3_scale(rough.slope, 0.006f * cover.dead));
-    }
+    // Living tissue is as fine as its cups, algae are coarse.
+    PatternOctaves rough = pattern_octaves(point, 0.022f, 4, 0.55f, 1.0f, 50);
+    float height = lerpf(0.0016f, 0.006f, cover.dead);
+    shade->normal = pattern_tilt(shade->normal, vec3_scale(rough.slope, height));
 }
