@@ -138,7 +138,8 @@ static void has_no_seam(BarkKind kind)
             creases += vec3_distance(left.normal, right.normal) > 0.05f;
         }
     }
-    assert_true(creases <= 1);
+    // a plate may end with a sharp step just there; no other bark has such
+    assert_true(creases <= (kind == BARK_PLATES ? 1 : 0));
 }
 
 static void test_bark_has_no_seam(void **state)
