@@ -160,6 +160,59 @@ static void pools_lie_at_outer_banks(void **state)
     free_traced(&t);
 }
 
+// The curve between nodes goes through them and stays near the circle on which they lie, much
+// nearer than chords, whose sagitta is radius (1 - cos(half the step)).
+static void lines_are_round_between_nodes(void **state)
+{
+    (void)state;
+    const double radius = 100.0, step = 0.35;
+    MeanderNode node[4];
+    for (int k = 0; k < 4; k++) {
+        node[k] = (MeanderNode){radius * cos(step * (k - 1)), radius * sin(step * (k - 1))};
+    }
+    MeanderNode first = meander_between(node, 0.0), last = meander_between(node, 1.0);
+    assert_true(first.x == node[1].x && first.z == node[1].z);
+    assert_true(fabs(last.x - node[2].x) < 1e-12 && fabs(last.z - node[2].z) < 1e-12);
+    double worst = 0.0;
+    for (int i = 1; i < 20; i++) {
+        MeanderNode p = meander_between(node, i / 20.0);
+        worst = fmax(worst, fabs(sqrt(p.x * p.x + p.z * p.z) - radius));
+    }
+    double chord = radius * (1.0 - cos(0.5 * step));
+    print_message("%.3f m from the circle, chords %.3f m\n", worst, chord);
+    assert_true(worst < 0.06 * chord);
+}
+
+// A sample that is moved by a cell sees the river as the one beside it does.
+static void samples_are_looked_up_where_they_are_moved(void **state)
+{
+    (void)state;
+    TerrainParams params = level_plain(100.0f);
+    params.meander.age = 0.2f;
+    Traced t = trace_river(&params);
+    int64_t count = height_field_count(t.field), found = 0;
+    Vec2 *moved = malloc((size_t)count * sizeof *moved);
+    assert_non_null(moved);
+    for (int64_t i = 0; i < count; i++) {
+        moved[i] = (Vec2){t.field->cell.x, 0.0f};
+    }
+    MeanderTrace aside;
+    assert_true(meander_trace_new(&aside, t.field, NULL));
+    aside.moved = moved;
+    aside.most = t.field->cell.x;
+    assert_true(meander_trace_river(&aside, t.m, NULL));
+    for (int64_t i = 0; i < count; i++) {
+        if ((i + 1) % t.field->columns != 0) {
+            assert_true(aside.aside[i] == t.trace.aside[i + 1]);
+            found += aside.aside[i] < INFINITY;
+        }
+    }
+    assert_true(found > 1000);
+    meander_trace_free(&aside);
+    free(moved);
+    free_traced(&t);
+}
+
 typedef struct Lakes {
     const HeightField *field;
     uint8_t *seen;
@@ -300,6 +353,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(small_waves_grow_as_the_closed_form),
         cmocka_unit_test(the_flow_feels_bends_late),
+        cmocka_unit_test(lines_are_round_between_nodes),
+        cmocka_unit_test(samples_are_looked_up_where_they_are_moved),
         cmocka_unit_test(pools_lie_at_outer_banks),
         cmocka_unit_test(oxbows_do_not_break_into_beads),
         cmocka_unit_test(a_finer_grid_shows_the_same_land),

@@ -18,6 +18,10 @@ static const float BANK = 0.045f;  // of the width: height of the banks above th
 static const float DEPTH = 0.06f;  // of the width: mean depth of the middle of the bed, below banks
 static const float TOE = 0.011f;   // of the width: how far low water has fallen below the bed's rim
 static const float RAGGED = 0.05f; // how far the channel is wider or narrower here and there
+static const float UNEVEN = 0.045f; // of the width: how far banks and scrolls stray from the line
+static const float EDGE = 2.1f;     // half widths from the river's middle, up to which no field is
+static const float UNPLOUGHED = 0.7f; // age there
+static const float SCROLL = 0.22f;    // of the banks' height: mean height of scrolls
 // Of the depth, by half widths and the curvature times the width: transverse slope of the bed, as
 // Ikeda, Parker and Sawai (1981) take it from data, 2.9 to 5 in other rivers.
 static const float SCOUR = 4.5f;
@@ -27,6 +31,7 @@ typedef struct Plain {
     TerrainParams p;
     HeightField *field;
     MeanderTrace trace;
+    Vec2 *moved;       // MeanderTrace.moved
     float time, width; // m
 } Plain;
 
@@ -47,6 +52,53 @@ static float repeating_noise(const Plain *plain, float wave, int octaves, float 
     return ((1.0f - t) * a + t * b) / sqrtf(t * t + (1.0f - t) * (1.0f - t));
 }
 
+enum { CHUNK = 256 }; // samples of a row that are laid together
+
+// Samples first .. first + count - 1 of the grid, which lie in one row.
+typedef struct Chunk {
+    int64_t first;
+    int count;
+    float x[CHUNK], z;
+} Chunk;
+
+// Chunk k of the grid.
+static Chunk chunk_of(const HeightField *f, int64_t k)
+{
+    int64_t each = (f->columns + CHUNK - 1) / CHUNK, row = k / each, column = k % each * CHUNK;
+    int64_t left = f->columns - column;
+    Chunk chunk = {.first = row * f->columns + column,
+                   .count = left < CHUNK ? (int)left : CHUNK,
+                   .z = f->origin.y + (float)row * f->cell.y};
+    for (int i = 0; i < chunk.count; i++) {
+        chunk.x[i] = f->origin.x + (float)(column + i) * f->cell.x;
+    }
+    return chunk;
+}
+
+static int64_t chunk_count(const HeightField *f)
+{
+    return (f->columns + CHUNK - 1) / CHUNK * f->rows;
+}
+
+// repeating_noise at a chunk's samples, with the same bits.
+static void repeating_noise_along(const Plain *plain, float wave, int octaves, const Chunk *chunk,
+                                  uint64_t key, float *sum)
+{
+    float size = plain->p.size, t = chunk->z / size + 0.5f, copy[2][CHUNK];
+    for (int k = 0; k < 2; k++) {
+        float x[CHUNK], y[CHUNK];
+        for (int i = 0; i < chunk->count; i++) {
+            x[i] = chunk->x[i] / wave;
+            y[i] = (k == 0 ? chunk->z : chunk->z - size) / wave;
+        }
+        sparse_noise_fractal_along(x, y, chunk->count, octaves, 0.5f, 0.0f, key, copy[k]);
+    }
+    for (int i = 0; i < chunk->count; i++) {
+        sum[i] =
+            ((1.0f - t) * copy[0][i] + t * copy[1][i]) / sqrtf(t * t + (1.0f - t) * (1.0f - t));
+    }
+}
+
 // ---- hills
 
 // m above the floodplain of the hills beside it.
@@ -54,7 +106,11 @@ static float hills(const Plain *plain, float x, float z)
 {
     const TerrainParams *p = &plain->p;
     uint64_t key = random_key(plain->terrain->seed, STREAM_PLAIN);
-    float half = 0.5f * p->size, n = repeating_noise(plain, 0.125f * p->size, 5, x, z, key);
+    float half = 0.5f * p->size;
+    if (fabsf(x) < half * p->meander.plain - 0.2f * p->size) { // no noise is so strong
+        return 0.0f;
+    }
+    float n = repeating_noise(plain, 0.125f * p->size, 5, x, z, key);
     float edge = half * p->meander.plain + 0.02f * p->size * n;
     float t = (fabsf(x) - edge) / (half * (1.15f - p->meander.plain));
     t = clampf(t, 0.0f, 1.0f);
@@ -74,8 +130,8 @@ static float flood(const Plain *plain, float time)
 static float bar(const Plain *plain, float left)
 {
     float since = plain->time - left, grown = since / (since + BARS);
-    float fades = 25.0f / (25.0f + since);
-    float scroll = 0.16f * flood(plain, left) * grown * fades;
+    float fades = 40.0f / (40.0f + since);
+    float scroll = SCROLL * flood(plain, left) * grown * fades;
     return plain->width * (TOE + (BANK - TOE) * (grown + scroll));
 }
 
@@ -106,18 +162,21 @@ static float bed(const Plain *plain, float aside, float bend)
     return plain->width * (TOE - DEPTH * scour * bank);
 }
 
-static Site site_at(const Plain *plain, int64_t i, float x, float z)
+// rough: noise of a width and less.
+static Site site_at(const Plain *plain, int64_t i, float x, float z, float rough)
 {
     const MeanderTrace *t = &plain->trace;
     float w = plain->width, left = t->left[i];
-    uint64_t key = random_key(plain->terrain->seed, STREAM_NOISE);
-    float rough = repeating_noise(plain, w, 4, x, z, key);
     float fresh = left < 0.0f ? 1.0f : (plain->time - left) / (plain->time - left + 2.0f);
     float ground = left < 0.0f ? BANK * w : bar(plain, left);
     ground += 0.003f * w * rough * fresh;
     Site site = {fmaxf(ground, 0.002f * w), false};
-    float ragged = 1.0f + RAGGED * repeating_noise(plain, 0.7f * w, 4, x, z, random_key(key, 1));
-    float aside = t->aside[i] * clampf(ragged, 0.75f, 1.25f);
+    float aside = t->aside[i];
+    if (fabsf(aside) < 1.4f) {
+        uint64_t key = random_key(random_key(plain->terrain->seed, STREAM_NOISE), 1);
+        float ragged = 1.0f + RAGGED * repeating_noise(plain, 0.7f * w, 4, x, z, key);
+        aside *= clampf(ragged, 0.75f, 1.25f);
+    }
     if (fabsf(aside) < 1.0f) {
         float height = bed(plain, aside, t->bend[i]);
         return (Site){height, height < 0.0f};
@@ -125,17 +184,17 @@ static Site site_at(const Plain *plain, int64_t i, float x, float z)
     return t->old[i] < INFINITY ? oxbow(plain, i, site.height) : site;
 }
 
-static void lay_sample(const Plain *plain, int64_t i)
+static void lay_sample(const Plain *plain, int64_t i, float x, float z, float rough)
 {
     HeightField *f = plain->field;
     const MeanderTrace *t = &plain->trace;
-    int64_t row = i / f->columns;
-    float x = f->origin.x + (float)(i % f->columns) * f->cell.x;
-    float z = f->origin.y + (float)row * f->cell.y, w = plain->width;
+    float w = plain->width;
     float hill = hills(plain, x, z), plane = -plain->p.meander.slope * z;
-    Site site = site_at(plain, i, x, z);
+    Site site = site_at(plain, i, x, z, rough);
     float since = plain->time - t->left[i];
-    f->age[i] = t->left[i] < 0.0f ? 0.74f : 0.74f * since / (since + 9.0f);
+    // Nobody ploughs to the river's edge: there old ground is left to grass and trees.
+    float old = fabsf(t->aside[i]) < EDGE ? UNPLOUGHED : 0.74f;
+    f->age[i] = t->left[i] < 0.0f ? old : 0.74f * since / (since + 9.0f);
     f->age[i] = hill > 0.02f * plain->p.relief ? 0.8f : f->age[i];
     f->height[i] = site.height + plane + hill;
     bool near = fabsf(t->aside[i]) < 3.0f || (t->open[i] > 0.0f && t->old[i] < INFINITY);
@@ -143,6 +202,49 @@ static void lay_sample(const Plain *plain, int64_t i)
     float damp = 1.0f - site.height / (1.25f * BANK * w);
     f->wetness[i] = site.wet ? 1.0f : hill > 0.0f ? 0.0f : clampf(damp, 0.0f, 0.95f);
     f->loose[i] = hill > 0.0f ? 0.5f : DEPTH * w;
+}
+
+static void lay_all(const Plain *plain, int64_t chunks, const Run *run)
+{
+    uint64_t key = random_key(plain->terrain->seed, STREAM_NOISE);
+#pragma omp parallel for schedule(dynamic, 16) num_threads(run->threads)
+    for (int64_t k = 0; k < chunks; k++) {
+        Chunk chunk = chunk_of(plain->field, k);
+        float rough[CHUNK];
+        repeating_noise_along(plain, plain->width, 4, &chunk, key, rough);
+        for (int i = 0; i < chunk.count; i++) {
+            lay_sample(plain, chunk.first + i, chunk.x[i], chunk.z, rough[i]);
+        }
+    }
+}
+
+// Roots and clay hold banks here and there: each sample is looked up a little aside. m.
+static bool move_samples(Plain *plain, const Run *run, Error *e)
+{
+    const HeightField *f = plain->field;
+    float width = plain->p.meander.width, most = 2.5f * UNEVEN * width;
+    uint64_t key = random_key(random_key(plain->terrain->seed, STREAM_SCROLLS), 1);
+    plain->moved = memory_alloc(height_field_count(f), sizeof *plain->moved, e);
+    if (!plain->moved) {
+        return false;
+    }
+#pragma omp parallel for schedule(dynamic, 16) num_threads(run->threads)
+    for (int64_t n = 0; n < chunk_count(f); n++) {
+        Chunk chunk = chunk_of(f, n);
+        float move[2][CHUNK];
+        for (int k = 0; k < 2; k++) {
+            repeating_noise_along(plain, 1.5f * width, 4, &chunk, random_key(key, (uint64_t)k),
+                                  move[k]);
+        }
+        for (int i = 0; i < chunk.count; i++) {
+            plain->moved[chunk.first + i] =
+                (Vec2){clampf(UNEVEN * width * move[0][i], -most, most),
+                       clampf(UNEVEN * width * move[1][i], -most, most)};
+        }
+    }
+    plain->trace.moved = plain->moved;
+    plain->trace.most = most;
+    return true;
 }
 
 static bool make_field(Plain *plain, Error *e)
@@ -170,7 +272,7 @@ bool terrain_grow_meander(Terrain *terrain, const Run *run, Error *e)
     uint64_t key = random_key(terrain->seed, STREAM_MEANDER);
     Meander *m = meander_new((double)p->meander.width, (double)p->size, 0.3, key, e);
     terrain->meander = m;
-    bool done = m && make_field(&plain, e);
+    bool done = m && make_field(&plain, e) && move_samples(&plain, run, e);
     terrain->plain = plain.field;
     if (done) {
         m->contrast = 0.5;
@@ -180,11 +282,9 @@ bool terrain_grow_meander(Terrain *terrain, const Run *run, Error *e)
         plain.time = (float)m->time;
         plain.width = (float)m->width;
     }
-#pragma omp parallel for schedule(static) num_threads(run->threads)
-    for (int64_t i = 0; i < (done ? height_field_count(plain.field) : 0); i++) {
-        lay_sample(&plain, i);
-    }
+    lay_all(&plain, done ? chunk_count(plain.field) : 0, run);
     meander_trace_free(&plain.trace);
+    free(plain.moved);
     return done;
 }
 

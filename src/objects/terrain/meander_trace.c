@@ -10,6 +10,7 @@ static const double STAMP = 0.16; // time between two records of the channel
 static const double REACH = 3.0;  // half widths from the river's middle within which it is known
 static const double SCAR = 1.4;   // likewise of bends that were cut off
 static const double FILL = 26.0;  // mean time in which a cut bend fills
+enum { PIECES = 3 }; // straight ones between two nodes: with one, banks would show corners
 
 bool meander_trace_new(MeanderTrace *trace, const HeightField *field, Error *e)
 {
@@ -62,10 +63,21 @@ static Near look(MeanderNode a, MeanderNode b, double x, double z)
     return (Near){.aside = u * dz - v * dx < 0.0 ? -away : away, .along = t};
 }
 
-// All samples within `reach` of the piece, m.
-static void touch_piece(const HeightField *f, MeanderNode a, MeanderNode b, double reach,
-                        Touch *touch, void *data)
+// A piece of a line and who wants to know of samples near it.
+typedef struct Piece {
+    MeanderNode a, b;
+    double first, share; // of `along`: at a, and what the piece adds to b
+    double reach;        // m
+    Touch *touch;
+    void *data;
+} Piece;
+
+// All samples within its reach, as far as the trace moves them.
+static void touch_piece(const MeanderTrace *trace, const Piece *piece)
 {
+    const HeightField *f = trace->field;
+    MeanderNode a = piece->a, b = piece->b;
+    double reach = piece->reach + (trace->moved ? (double)trace->most : 0.0);
     double cell = (double)f->cell.x, corner = (double)f->origin.x, last = f->columns - 1;
     int first_column = (int)fmax(ceil((fmin(a.x, b.x) - reach - corner) / cell), 0.0);
     int last_column = (int)fmin(floor((fmax(a.x, b.x) + reach - corner) / cell), last);
@@ -73,32 +85,68 @@ static void touch_piece(const HeightField *f, MeanderNode a, MeanderNode b, doub
     int last_row = (int)fmin(floor((fmax(a.z, b.z) + reach - corner) / cell), last);
     for (int row = first_row; row <= last_row; row++) {
         for (int column = first_column; column <= last_column; column++) {
-            Near near = look(a, b, corner + column * cell, corner + row * cell);
-            if (fabs(near.aside) <= reach) {
-                near.sample = (int64_t)row * f->columns + column;
-                touch(data, &near);
+            int64_t i = (int64_t)row * f->columns + column;
+            Vec2 moved = trace->moved ? trace->moved[i] : (Vec2){0, 0};
+            Near near = look(a, b, corner + column * cell + (double)moved.x,
+                             corner + row * cell + (double)moved.y);
+            if (fabs(near.aside) <= piece->reach) {
+                near.sample = i;
+                near.along = piece->first + near.along * piece->share;
+                piece->touch(piece->data, &near);
             }
         }
     }
 }
 
-// The piece may lie anywhere along the line without end; the square is one `length` of it.
-static void touch_all(const HeightField *f, MeanderNode a, MeanderNode b, double length,
+MeanderNode meander_between(const MeanderNode node[4], double t)
+{
+    double t2 = t * t, t3 = t2 * t;
+    double w[4] = {0.5 * (2.0 * t2 - t3 - t), 0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
+                   0.5 * (4.0 * t2 - 3.0 * t3 + t), 0.5 * (t3 - t2)};
+    return (MeanderNode){w[0] * node[0].x + w[1] * node[1].x + w[2] * node[2].x + w[3] * node[3].x,
+                         w[0] * node[0].z + w[1] * node[1].z + w[2] * node[2].z + w[3] * node[3].z};
+}
+
+// What lies between the second and the third of four nodes. It may lie anywhere along the line
+// without end; the square is one `length` of it.
+static void touch_all(const MeanderTrace *trace, const MeanderNode node[4], double length,
                       double reach, Touch *touch, void *data)
 {
-    double turns = floor(a.z / length + 0.5);
+    double turns = floor(node[1].z / length + 0.5);
     for (int k = -1; k <= 1; k++) {
         double move = (k - turns) * length;
-        touch_piece(f, (MeanderNode){a.x, a.z + move}, (MeanderNode){b.x, b.z + move}, reach, touch,
-                    data);
+        for (int n = 0; n < PIECES; n++) {
+            Piece piece = {.a = meander_between(node, (double)n / PIECES),
+                           .b = meander_between(node, (double)(n + 1) / PIECES),
+                           .first = (double)n / PIECES,
+                           .share = 1.0 / PIECES,
+                           .reach = reach,
+                           .touch = touch,
+                           .data = data};
+            piece.a.z += move;
+            piece.b.z += move;
+            touch_piece(trace, &piece);
+        }
     }
 }
 
-static MeanderNode next_node(const Meander *m, int64_t i)
+// Nodes i - 1 .. i + 2 of the river.
+static void nodes_around(const Meander *m, int64_t i, MeanderNode node[4])
 {
-    MeanderNode node = m->node[(i + 1) % m->count];
-    node.z += i + 1 == m->count ? m->length : 0.0;
-    return node;
+    for (int k = 0; k < 4; k++) {
+        int64_t at = i + k - 1, turn = at < 0 ? -1 : at >= m->count ? 1 : 0;
+        node[k] = m->node[at - turn * m->count];
+        node[k].z += (double)turn * m->length;
+    }
+}
+
+// Likewise of a bend that was cut off, which ends.
+static void oxbow_around(const Oxbow *oxbow, int64_t i, MeanderNode node[4])
+{
+    for (int k = 0; k < 4; k++) {
+        int64_t at = i + k - 1;
+        node[k] = oxbow->node[at < 0 ? 0 : at < oxbow->count ? at : oxbow->count - 1];
+    }
 }
 
 // ---- when the channel left
@@ -133,8 +181,9 @@ static void stamp(Stamping *s, const Meander *m, double before)
     s->number++;
     s->count = 0;
     for (int64_t i = 0; i < m->count; i++) {
-        touch_all(s->trace->field, m->node[i], next_node(m, i), m->length, 0.9 * m->width,
-                  touch_channel, s);
+        MeanderNode node[4];
+        nodes_around(m, i, node);
+        touch_all(s->trace, node, m->length, 0.9 * m->width, touch_channel, s);
     }
     for (int32_t k = 0; k < s->count; k++) {
         int32_t i = s->found[k];
@@ -209,8 +258,9 @@ bool meander_trace_river(MeanderTrace *trace, const Meander *m, Error *e)
     for (int64_t i = 0; i < m->count; i++) {
         t.bend[0] = bend[i];
         t.bend[1] = bend[(i + 1) % m->count];
-        touch_all(trace->field, m->node[i], next_node(m, i), m->length, REACH * t.half, touch_river,
-                  &t);
+        MeanderNode node[4];
+        nodes_around(m, i, node);
+        touch_all(trace, node, m->length, REACH * t.half, touch_river, &t);
     }
     free(bend);
     return true;
@@ -271,8 +321,9 @@ bool meander_trace_oxbows(MeanderTrace *trace, const Meander *m, Error *e)
         }
         for (int64_t i = 0; i + 1 < oxbow->count && t.filled < 2.0; i++) {
             t.piece = piece_length(oxbow->node[i], oxbow->node[i + 1]);
-            touch_all(trace->field, oxbow->node[i], oxbow->node[i + 1], m->length, SCAR * t.half,
-                      touch_oxbow, &t);
+            MeanderNode node[4];
+            oxbow_around(oxbow, i, node);
+            touch_all(trace, node, m->length, SCAR * t.half, touch_oxbow, &t);
             t.begin += t.piece;
         }
         for (int64_t i = 0; i < count && t.filled < 2.0; i++) {

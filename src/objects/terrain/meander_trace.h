@@ -9,13 +9,20 @@
 // Distances are in half widths of the channel.
 typedef struct MeanderTrace {
     const HeightField *field; // borrowed: its grid; the river repeats after its length
-    float *left;              // time at which the channel left; < 0 = it never came
-    float *aside;             // to the middle of the river, positive on the left; INFINITY = far
-    float *bend;              // there: meander_bends
-    float *old;               // to the middle of a bend that was cut off; INFINITY = far
-    float *open;              // half width of what water is left there; 0 = none
-    float *filled;            // 0..2: how far it has been filled; 1 = no water is left
+    const Vec2 *moved; // borrowed: m by which each sample is looked up elsewhere, which makes banks
+                       // uneven; NULL = nowhere
+    float most;        // m: the most of `moved` along x or z
+    float *left;       // time at which the channel left; < 0 = it never came
+    float *aside;      // to the middle of the river, positive on the left; INFINITY = far
+    float *bend;       // there: meander_bends
+    float *old;        // to the middle of a bend that was cut off; INFINITY = far
+    float *open;       // half width of what water is left there; 0 = none
+    float *filled;     // 0..2: how far it has been filled; 1 = no water is left
 } MeanderTrace;
+
+// The place at t, 0..1, between the second and the third of four nodes: a cubic through all of them
+// (Catmull and Rom 1974).
+MeanderNode meander_between(const MeanderNode node[4], double t);
 
 // Nothing has left a trace yet. Free with meander_trace_free, also on failure.
 bool meander_trace_new(MeanderTrace *trace, const HeightField *field, Error *e);
