@@ -1,6 +1,7 @@
 #include "base/waves.h"
 
 #include "base/exact_math.h"
+#include "base/noise.h"
 
 #include <stdlib.h>
 
@@ -200,10 +201,14 @@ static Vec3 normal_of(const Waves *waves, const float sum[WAVE_CHANNELS])
     return vec3_normalize(normal);
 }
 
-void waves_at(const Waves *waves, float x, float z, float width, WavePoint *point)
+// The sum of all tiles at a place; *point: what the shore tells.
+static void sum_at(const Waves *waves, float x, float z, float width, float sum[WAVE_CHANNELS],
+                   WavePoint *point)
 {
-    float sum[WAVE_CHANNELS] = {0};
     const WavesShore *shore = waves->shore;
+    for (int c = 0; c < WAVE_CHANNELS; c++) {
+        sum[c] = 0.0f;
+    }
     point->breaking = point->drift = 0.0f;
     point->depth = INFINITY;
     if (shore) {
@@ -214,21 +219,96 @@ void waves_at(const Waves *waves, float x, float z, float width, WavePoint *poin
         point->breaking = grid_sum(&place, place.weight, shore->breaking, 1, 0);
         point->drift = grid_sum(&place, place.weight, shore->drift, 1, 0);
         point->depth = grid_sum(&place, place.weight, shore->depth, 1, 0);
-    } else {
-        for (int i = 0; i < WAVES_TILES; i++) {
-            float own[WAVE_CHANNELS];
-            tile_at(&waves->tile[i], x, z, width, own);
-            for (int c = 0; c < WAVE_CHANNELS; c++) {
-                sum[c] += own[c];
-            }
+        return;
+    }
+    for (int i = 0; i < WAVES_TILES; i++) {
+        float own[WAVE_CHANNELS];
+        tile_at(&waves->tile[i], x, z, width, own);
+        for (int c = 0; c < WAVE_CHANNELS; c++) {
+            sum[c] += own[c];
         }
     }
-    point->displacement = vec3(waves->choppiness * sum[WAVE_ASIDE_X], sum[WAVE_HEIGHT],
-                               waves->choppiness * sum[WAVE_ASIDE_Z]);
+}
+
+// ---- breakers
+
+// By how many standard deviations the crowding exceeds that from which waves break.
+static float excess_of(const Waves *waves, const float sum[WAVE_CHANNELS])
+{
+    return (waves->choppiness * sum[WAVE_CROWDING] - waves->foam) / waves->spread;
+}
+
+// Lumps of water that boils, -1..1, of sizes by halves from `largest` m down.
+static float lumps_at(float x, float z, float largest, float width)
+{
+    float sum = 0.0f, size = largest, share = 1.0f;
+    for (uint64_t i = 0; i < 5 && size > 2.0f * width; i++) {
+        sum += share * noise_plane(x / size, z / size, 9311 + i);
+        size *= 0.47f;
+        share *= 0.55f;
+    }
+    return sum;
+}
+
+// The crest leans over as the square of its excess, so that its foot stays and its lip goes
+// farthest, and falls as the lip runs ahead.
+Vec3 waves_thrown(const Waves *waves, float x, float z, float width, const float sum[WAVE_CHANNELS])
+{
+    const float most = 3.0f, drop = 0.35f, lump = 0.9f, boils = 0.08f; // deviations; shares; m
+    float excess = excess_of(waves, sum);
+    if (waves->breakers <= 0.0f || !(excess > 0.0f)) {
+        return vec3(0.0f, 0.0f, 0.0f);
+    }
+    float share = fminf(excess / most, 1.0f), square = share * share;
+    float rise = fmaxf(sum[WAVE_HEIGHT], 0.0f), reach = waves->breakers * rise;
+    float boil = boils * reach * smoothstepf(0.1f, 0.6f, share) * lumps_at(x, z, lump, width);
+    float ahead = reach * square + 0.5f * boil;
+    return vec3(ahead * waves->way.x, boil - drop * reach * square * square, ahead * waves->way.y);
+}
+
+static Vec3 displacement_of(const Waves *waves, const float sum[WAVE_CHANNELS])
+{
+    return vec3(waves->choppiness * sum[WAVE_ASIDE_X], sum[WAVE_HEIGHT],
+                waves->choppiness * sum[WAVE_ASIDE_Z]);
+}
+
+// Throws the crest at the point, and turns its normal, by differences over a pixel.
+static void throw_crest(const Waves *waves, float x, float z, float width,
+                        const float sum[WAVE_CHANNELS], WavePoint *point)
+{
+    const float least = 0.01f; // m
+    float step = fmaxf(width, least);
+    Vec3 here = waves_thrown(waves, x, z, width, sum), tangent[2];
+    for (int axis = 0; axis < 2; axis++) {
+        float beside[WAVE_CHANNELS], to_x = axis == 0 ? x + step : x,
+                                     to_z = axis == 1 ? z + step : z;
+        WavePoint rest;
+        sum_at(waves, to_x, to_z, width, beside, &rest);
+        Vec3 to = vec3_add(displacement_of(waves, beside),
+                           waves_thrown(waves, to_x, to_z, width, beside));
+        to = vec3_sub(to, vec3_add(point->displacement, here));
+        to.x += to_x - x;
+        to.z += to_z - z;
+        tangent[axis] = to;
+    }
+    point->displacement = vec3_add(point->displacement, here);
+    Vec3 normal = vec3_cross(tangent[1], tangent[0]);
+    float length = vec3_length(normal);
+    point->normal = length > 0.0f ? vec3_scale(normal, 1.0f / length) : point->normal;
+}
+
+void waves_at(const Waves *waves, float x, float z, float width, WavePoint *point)
+{
+    float sum[WAVE_CHANNELS];
+    sum_at(waves, x, z, width, sum, point);
+    point->displacement = displacement_of(waves, sum);
     point->normal = normal_of(waves, sum);
     point->crowding = waves->choppiness * sum[WAVE_CROWDING];
     point->trail = waves->choppiness * sum[WAVE_TRAIL];
     point->roughness2 = hidden_variance(waves, fmaxf(2.0f * width, waves->shortest));
+    if (waves->breakers > 0.0f && excess_of(waves, sum) > 0.0f) {
+        throw_crest(waves, x, z, width, sum, point);
+    }
 }
 
 // Foam between the breakers: dense where the water runs up the shore and back, then what drifts

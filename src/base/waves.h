@@ -61,6 +61,7 @@ typedef struct Waves {
     float foam;       // crowding from which waves break
     float spread;     // of the crowding: its standard deviation
     float shortest;   // m: the shortest wave of all tiles
+    float breakers;   // 0..: by how much of their height crests that break fall forward
     // Variance of the slopes of all waves shorter than 2^(WAVES_BAND_FIRST + i / 4) m, summed over
     // both axes: what a surface without these has as roughness.
     float hidden[WAVES_BANDS];
@@ -86,6 +87,12 @@ typedef struct WavePoint {
     float depth;      // m of still water; INFINITY without a shore
     float roughness2; // variance of the slopes that are left out, summed over both axes
 } WavePoint;
+
+// What a crest that breaks adds to the displacement at a parcel's place: water that is thrown ahead
+// along the way of the waves, falls, and boils in lumps of no less than twice `width` m. sum: the
+// channels (WAVE_*) there. Zero where the crowding is below that from which waves break.
+Vec3 waves_thrown(const Waves *waves, float x, float z, float width,
+                  const float sum[WAVE_CHANNELS]);
 
 // Leaves out waves shorter than twice `width` m.
 void waves_at(const Waves *waves, float x, float z, float width, WavePoint *point);

@@ -234,10 +234,17 @@ void path_note_behind(Path *path, const Hit *hit)
     note_guides(path, &bsdf);
 }
 
+// Does light pass foam at this vertex, which scatters it, so that it is gathered from below, too?
+static bool glows_through(const Vertex *vertex)
+{
+    const float most = 0.3f; // foam that thin foam hides of the refracted light
+    return vertex->bsdf.foam > most && vertex->bsdf.foam_through > 0.0f;
+}
+
 // Into open water light is not sampled: what leaves it again is refracted.
 static bool enters_open_water(const Vertex *vertex, Vec3 direction)
 {
-    return vertex->bsdf.traits & TRAIT_OPEN && !vertex->point.backface &&
+    return vertex->bsdf.traits & TRAIT_OPEN && !vertex->point.backface && !glows_through(vertex) &&
            vec3_dot(direction, vertex->point.geometric_normal) < 0.0f;
 }
 
@@ -298,7 +305,9 @@ bool path_bounce(Vertex *vertex, const float u[4])
     path->start = path->ray.origin;
     path->travelled = 0.0f;
     path->bsdf_pdf = sample.delta || enters_open_water(vertex, sample.wi) ? 0.0f : sample.pdf;
-    path->gathers = !sample.delta && !(bsdf->traits & TRAIT_OPEN);
+    bool gathered = !(bsdf->traits & TRAIT_OPEN) ||
+                    (sample.transmitted && !point->backface && glows_through(vertex));
+    path->gathers = !sample.delta && gathered;
     if (!sample.delta) {
         path->mirrored = false;
         float lobe = 0.25f / (1.0f + sample.pdf);

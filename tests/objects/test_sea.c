@@ -1,6 +1,7 @@
 // The sea: its spectrum against what was measured at sea, its surface against its spectrum, its
 // waves against the dispersion relation, its foam against observed whitecaps, and its surf against
 // the depth.
+#include "objects/sea/drops.h"
 #include "objects/sea/sea.h"
 #include "testing.h"
 
@@ -217,6 +218,180 @@ static void foam_covers_what_whitecaps_do(void **state)
     }
 }
 
+// The height of the longest waves at a place.
+static float long_height(const Waves *waves, float x, float z)
+{
+    Waves alone = *waves;
+    for (int i = 1; i < WAVES_TILES; i++) {
+        alone.tile[i].levels = 0;
+    }
+    WavePoint point;
+    waves_at(&alone, x, z, 0.0f, &point);
+    return point.displacement.y;
+}
+
+// The crest is as high as asked for at its place and time, the highest about it, and has left a
+// period later, downwind; far off the sea is what it was.
+static void great_wave_stands_where_it_is_asked_for(void **state)
+{
+    (void)state;
+    SeaParams sea = sea_params_default();
+    sea.wind = 12.0f;
+    sea.wind_azimuth = 270.0f;
+    sea.choppiness = 0.0f;
+    Waves *plain = waves_of(&sea, 7, 2);
+    sea.crest[0] = 40.0f;
+    sea.crest[1] = -25.0f;
+    sea.crest_height = 1.3f * (float)height_of(plain);
+    sea.crest_time = 3.0f;
+    sea.time = 3.0f;
+    Waves *great = waves_of(&sea, 7, 2);
+    float there = long_height(great, 40.0f, -25.0f);
+    printf("    asked for %.2f m, is %.2f m\n", (double)sea.crest_height, (double)there);
+    assert_true(fabsf(there - sea.crest_height) < 0.01f * sea.crest_height);
+    float aside = 0.25f * great->tile[0].longest;
+    for (int i = 0; i < 8; i++) {
+        double angle = TURN * i / 8.0;
+        float x = 40.0f + aside * (float)cos(angle), z = -25.0f + aside * (float)sin(angle);
+        assert_true(long_height(great, x, z) < 0.9f * there);
+    }
+    waves_free(great);
+    sea.time = 3.0f + 0.25f * (float)(TURN / sea_spectrum(&sea).peak);
+    great = waves_of(&sea, 7, 2);
+    float left = long_height(great, 40.0f, -25.0f),
+          ahead = long_height(great, 40.0f + aside, -25.0f);
+    printf("    a quarter of a period later: %.2f m there, %.2f m ahead\n", (double)left,
+           (double)ahead);
+    assert_true(ahead > left + 0.2f * sea.crest_height);
+    waves_free(great);
+    waves_free(plain);
+}
+
+// What breaks leans over downwind, the more the higher it stands and the more it is crowded; what
+// does not break stays in its place to the bit.
+static void crests_that_break_fall_forward(void **state)
+{
+    (void)state;
+    SeaParams sea = sea_params_default();
+    sea.wind = 15.0f;
+    Waves *plain = waves_of(&sea, 7, 2);
+    sea.breakers = 0.7f;
+    Waves *waves = waves_of(&sea, 7, 2);
+    int broken = 0;
+    double ahead = 0.0, aside = 0.0;
+    for (int i = 0; i < 40000; i++) {
+        float x = 5.3f * (float)(i % 200), z = 5.3f * (float)(i / 200);
+        WavePoint still, thrown;
+        waves_at(plain, x, z, 0.1f, &still);
+        waves_at(waves, x, z, 0.1f, &thrown);
+        Vec3 by = vec3_sub(thrown.displacement, still.displacement);
+        assert_true(fabsf(vec3_length(thrown.normal) - 1.0f) < 1e-4f);
+        if (still.crowding <= plain->foam) {
+            assert_memory_equal(&still, &thrown, sizeof still);
+            continue;
+        }
+        float rise = fmaxf(still.displacement.y, 0.0f);
+        assert_true(vec3_length(by) <= 1.5f * sea.breakers * rise + 1e-5f);
+        ahead += (double)(by.x * waves->way.x + by.z * waves->way.y);
+        aside += (double)fabsf(by.z * waves->way.x - by.x * waves->way.y);
+        broken++;
+    }
+    printf("    %d of 40000 places break, %.3f m ahead\n", broken, ahead / broken);
+    assert_true(broken > 100 && ahead / broken > 0.02 && aside / broken < 1e-4);
+    float sum[WAVE_CHANNELS] = {0};
+    sum[WAVE_HEIGHT] = 2.0f;
+    float last = 0.0f;
+    for (int i = 1; i <= 3; i++) { // wide, so that nothing boils
+        sum[WAVE_CROWDING] = (waves->foam + (float)i * waves->spread) / waves->choppiness;
+        Vec3 by = waves_thrown(waves, 0.0f, 0.0f, 10.0f, sum);
+        float along = by.x * waves->way.x + by.z * waves->way.y;
+        assert_true(along > last && by.y <= 0.0f);
+        last = along;
+    }
+    assert_true(fabsf(last - 0.7f * 2.0f) < 0.01f); // the whole height times the parameter
+    waves_free(plain);
+    waves_free(waves);
+}
+
+// Normals of thrown crests are those of the surface that the mesh shows.
+static void normals_of_breakers_are_those_of_the_surface(void **state)
+{
+    (void)state;
+    SeaParams sea = sea_params_default();
+    sea.wind = 15.0f;
+    sea.breakers = 0.7f;
+    Waves *waves = waves_of(&sea, 7, 2);
+    int seen = 0;
+    double off = 0.0;
+    for (int i = 0; i < 40000; i++) {
+        float x = 5.3f * (float)(i % 200), z = 5.3f * (float)(i / 200), step = 0.02f;
+        WavePoint at[3];
+        waves_at(waves, x, z, 0.02f, &at[0]);
+        if (at[0].crowding < waves->foam + 0.1f) {
+            continue;
+        }
+        waves_at(waves, x + step, z, 0.02f, &at[1]);
+        waves_at(waves, x, z + step, 0.02f, &at[2]);
+        Vec3 to[2];
+        for (int k = 0; k < 2; k++) {
+            to[k] = vec3_sub(at[k + 1].displacement, at[0].displacement);
+        }
+        to[0].x += step;
+        to[1].z += step;
+        Vec3 normal = vec3_normalize(vec3_cross(to[1], to[0]));
+        off += (double)(1.0f - vec3_dot(normal, at[0].normal));
+        seen++;
+    }
+    printf("    %d places, 1 - cosine %.4f\n", seen, off / seen);
+    assert_true(seen > 30 && off / seen < 0.02);
+    waves_free(waves);
+}
+
+// Drops are in the air above crests that break and downwind of them, closed bodies of millimetres;
+// the same bits for any threads that made the waves; none in a light breeze or if none are wanted.
+static void drops_fly_above_breakers(void **state)
+{
+    (void)state;
+    Error e = {0};
+    SeaParams sea = sea_params_default();
+    sea.wind = 17.0f;
+    sea.fetch = 40000.0f;
+    sea.crest_height = 3.0f;
+    sea.breakers = 0.6f;
+    sea.drops = 1.0f;
+    bool none;
+    Mesh *mesh[2];
+    for (int i = 0; i < 2; i++) {
+        Waves *waves = waves_of(&sea, 7, 1 + 3 * i);
+        mesh[i] = sea_drops(&sea, waves, (Vec2){0.0f, 0.0f}, 7, &none, &e);
+        assert_true(mesh[i] && !none);
+        waves_free(waves);
+    }
+    assert_int_equal(mesh[0]->vertex_count, mesh[1]->vertex_count);
+    assert_memory_equal(mesh[0]->position, mesh[1]->position,
+                        sizeof(Vec3) * (size_t)mesh[0]->vertex_count);
+    MeshTopology topology;
+    assert_true(mesh_topology(mesh[0], &topology, &e));
+    assert_int_equal(topology.open_edges + topology.overused_edges + topology.misoriented_edges, 0);
+    Aabb box = mesh_bounds(mesh[0]);
+    printf("    %lld drops, up to %.2f m\n", (long long)(mesh[0]->vertex_count / 6),
+           (double)box.high.y);
+    assert_true(mesh[0]->vertex_count > 6 * 1000 && box.high.y > 3.0f && box.high.y < 8.0f);
+    assert_true(box.low.x > -70.0f && box.high.x < 70.0f);
+    mesh_free(mesh[0]);
+    mesh_free(mesh[1]);
+    for (int i = 0; i < 2; i++) {
+        SeaParams calm = sea;
+        calm.drops = i == 0 ? 0.0f : 1.0f;
+        calm.wind = i == 0 ? 17.0f : 3.0f;
+        calm.crest_height = 0.0f;
+        Waves *waves = waves_of(&calm, 7, 2);
+        assert_null(sea_drops(&calm, waves, (Vec2){0.0f, 0.0f}, 7, &none, &e));
+        assert_true(none);
+        waves_free(waves);
+    }
+}
+
 // A beach that rises toward +x by 1 in 25, with the shore line at x = 0.
 static HeightField *beach(void)
 {
@@ -365,6 +540,10 @@ int main(void)
         cmocka_unit_test(waves_move_as_water_waves_do),
         cmocka_unit_test(bits_do_not_depend_on_threads),
         cmocka_unit_test(foam_covers_what_whitecaps_do),
+        cmocka_unit_test(great_wave_stands_where_it_is_asked_for),
+        cmocka_unit_test(crests_that_break_fall_forward),
+        cmocka_unit_test(normals_of_breakers_are_those_of_the_surface),
+        cmocka_unit_test(drops_fly_above_breakers),
         cmocka_unit_test(surf_is_limited_by_depth),
         cmocka_unit_test(surf_is_white),
         cmocka_unit_test(waves_turn_toward_the_shore),

@@ -180,6 +180,40 @@ static void bubbles_have_the_waters_colour(void **state)
     material_set_free(set);
 }
 
+// Foam sends a share of what it scatters on through itself: the two sides add up to its colour, and
+// the densities of its directions to 1.
+static void foam_passes_light_on(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_WATER);
+    MaterialSet *set = material_set_new(&m, NULL, 1, NULL, NULL);
+    SurfacePoint point = flat_point(false);
+    Vec3 wo = at_cosine(0.6f, 0.0f);
+    Bsdf bsdf = bsdf_at(set, &point, wo);
+    bsdf.foam = 1.0f;
+    bsdf.foam_color = vec3_splat(0.8f);
+    bsdf.foam_normal = bsdf.normal;
+    bsdf.foam_through = 0.25f;
+    bsdf.delta = false;
+    bsdf.alpha = 0.1f;
+    enum { SIDE = 200 };
+    double light[2] = {0}, density = 0.0;
+    for (int i = 0; i < SIDE; i++) {
+        for (int k = 0; k < SIDE; k++) {
+            float cosine = 2.0f * ((float)i + 0.5f) / SIDE - 1.0f;
+            float pdf, angle = 6.2831853f * ((float)k + 0.5f) / SIDE;
+            Vec3 f = bsdf_eval(&bsdf, wo, at_cosine(cosine, angle), &pdf);
+            double area = 12.566370614 / (SIDE * SIDE);
+            light[cosine < 0.0f] += (double)f.x * area;
+            density += (double)pdf * area;
+        }
+    }
+    assert_float_equal(light[0], 0.6, 0.002);
+    assert_float_equal(light[1], 0.2, 0.002);
+    assert_float_equal(density, 1.0, 0.002);
+    material_set_free(set);
+}
+
 // Mirrors: the same with delta lobes.
 static void test_mirrors(void **state)
 {
@@ -495,6 +529,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_white_furnace),
         cmocka_unit_test(bubbles_have_the_waters_colour),
+        cmocka_unit_test(foam_passes_light_on),
         cmocka_unit_test(test_mirrors),
         cmocka_unit_test(test_densities),
         cmocka_unit_test(test_weights_agree),

@@ -1,6 +1,7 @@
 // A sea as a kind of object.
 #include "objects/kind.h"
 #include "land/height_raster.h"
+#include "objects/sea/drops.h"
 #include "objects/sea/sea.h"
 #include "objects/sea/spray.h"
 #include "render/material/material.h"
@@ -10,6 +11,7 @@
 #include <stdio.h>
 
 enum { BED_SIDE = 1024 };
+enum { SEA_WATER, SEA_DROPS }; // roles
 
 static const char *over(const void *params)
 {
@@ -37,14 +39,25 @@ static Waves *make_waves(const SeaParams *params, const Recipe *recipe, Error *e
     return waves;
 }
 
+// Adds what the waves throw up as drops, if that is wanted.
+static bool add_drops(const SeaParams *params, const Waves *waves, const Placing *placing, Error *e)
+{
+    bool none;
+    Vec2 center = sea_center(params, placing->around.eye);
+    Mesh *mesh = sea_drops(params, waves, center, placing->recipe->seed, &none, e);
+    return none || placing_add(placing, (Part){.mesh = mesh}, SEA_DROPS, e);
+}
+
 bool sea_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
     (void)grown;
     const SeaParams *params = given;
     Waves *waves = make_waves(params, placing->recipe, e);
     Part part = {0};
-    if (waves && placing->keep_spray &&
-        !(part.spray = sea_spray(params, waves, placing->recipe->seed, e))) {
+    if (waves && ((placing->keep_spray &&
+                   !(part.spray = sea_spray(params, waves, placing->recipe->seed, e))) ||
+                  !add_drops(params, waves, placing, e))) {
+        spray_free(part.spray);
         waves_free(waves);
         return false;
     }
@@ -100,16 +113,27 @@ static const Material BUILTIN[] = {
     {.name = "sea/water",
      .kind = MATERIAL_WATER,
      .color = {1.0f, 1.0f, 1.0f},
-     .color2 = {0.75f, 0.78f, 0.80f},
+     .color2 = {0.88f, 0.90f, 0.92f},
      .absorption = {0.270f, 0.070f, 0.045f},
      .scattering = {0.045f, 0.050f, 0.055f},
      .anisotropy = 0.75f,
+     .ior = 1.34f},
+    // A drop passes what it does not mirror on in other directions; too small to be seen as a lens.
+    {.name = "sea/drops",
+     .kind = MATERIAL_LEAF,
+     .color = {0.42f, 0.43f, 0.44f},
+     .color2 = {0.42f, 0.43f, 0.44f},
+     .transmittance = {0.48f, 0.49f, 0.49f},
+     .roughness = 0.2f,
+     .specular = 0.5f,
      .ior = 1.34f},
     {.name = ""},
 };
 
 static const Key MATERIALS[] = {
-    OWN_MATERIAL_ROW(0),
+    OWN_MATERIAL_ROW(SEA_WATER),
+    MATERIAL_ROW(SEA_DROPS, "drop_material",
+                 "Material of the drops above a sea's breakers; default: sea/drops."),
     {0},
 };
 
@@ -117,7 +141,7 @@ const Kind kind_sea = {
     .variant = {KIND_ROW("sea", &sea_table, "The sea with waves by the spectrum of the wind."),
                 MATERIALS},
     .reads_scene = true, // the bed
-    .materials = {"sea/water"},
+    .materials = {"sea/water", "sea/drops"},
     .builtin = BUILTIN,
     .over = over,
     .over_key = "bed",

@@ -127,12 +127,18 @@ static bool make(SeaSheet *sheet, const Run *run, Error *e)
     return true;
 }
 
+Vec2 sea_center(const SeaParams *params, const Vec3 *eye)
+{
+    if (params->center_given) {
+        return (Vec2){params->center[0], params->center[1]};
+    }
+    return eye ? (Vec2){eye->x, eye->z} : (Vec2){0.0f, 0.0f};
+}
+
 Mesh *sea_mesh(const SeaParams *params, const Vec3 *eye, Waves *waves, const Run *run, Error *e)
 {
     SeaSheet sheet = {.params = params, .waves = waves};
-    sheet.center = params->center_given ? (Vec2){params->center[0], params->center[1]}
-                   : eye                ? (Vec2){eye->x, eye->z}
-                                        : (Vec2){0.0f, 0.0f};
+    sheet.center = sea_center(params, eye);
     sheet.radius = ring_radii(params, &sheet.rings, e);
     bool done = sheet.radius && make(&sheet, run, e);
     free(sheet.radius);

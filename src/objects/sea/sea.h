@@ -15,7 +15,12 @@ typedef struct SeaParams {
     float level;        // m: y of the calm surface
     float choppiness;   // of the horizontal displacement
     float foam;         // factor on what whitecaps and surf cover
+    float breakers;     // how far crests that break fall forward, in their heights
+    float drops;        // factor on the drops that these throw up
     float time;         // s
+    float crest[2];     // m: x and z of a great wave's crest at rest ...
+    float crest_height; // m, above the calm surface; 0 = none ...
+    float crest_time;   // s: ... and when it is there
     char *bed;          // name of the object that is the sea's bed and shore; NULL = none
     float center[2];    // m: x and z of the mesh's finest place
     bool center_given;  // else under the camera
@@ -44,6 +49,9 @@ WavesShore *sea_shore(const SeaParams *params, const HeightField *land, const Wa
 // The surface, without what lies well above water. eye: the camera, or NULL. Takes ownership of the
 // waves, also on failure.
 Mesh *sea_mesh(const SeaParams *params, const Vec3 *eye, Waves *waves, const Run *run, Error *e);
+
+// In plan: about which place the mesh is finest. eye: the camera, or NULL.
+Vec2 sea_center(const SeaParams *params, const Vec3 *eye);
 
 bool sea_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 bool sea_measure(const void *params, const Grown *grown, const Recipe *recipe, MeasureList *list,

@@ -31,8 +31,25 @@ static const Key SEA_KEYS[] = {
      .doc = "How sharp crests are: 1 = as water moves, 0 = as high as troughs are deep."},
     {KEY_OF(SeaParams, foam, "foam", KEY_FLOAT), .high = 4,
      .doc = "How easily waves turn white: 1 = as at sea, 0 = never."},
+    {KEY_OF(SeaParams, breakers, "breakers", KEY_FLOAT), .high = 2,
+     .doc =
+         "How far the steepest of the crests that break fall forward, in their heights above the "
+         "calm surface: 0 = they only turn white, 0.3 = they spill, 1 = they plunge."},
+    {KEY_OF(SeaParams, drops, "drops", KEY_FLOAT), .high = 10,
+     .doc = "Drops in the air above crests that break, within 60 m of the center: 1 = as many as a "
+            "gale tears off, 0 = none. Material: sea/drops."},
     {KEY_OF(SeaParams, time, "time", KEY_FLOAT), .low = -1e6, .high = 1e6, .unit = "s",
      .doc = "Time of the picture; a key of animations."},
+    {KEY_OF(SeaParams, crest_height, "crest_height", KEY_FLOAT), .high = 60, .unit = "m",
+     .doc =
+         "Height above the calm surface of one great wave, whose waves come together at a place "
+         "and a time; 0 = none. It has the shape that the crests of this height have on average "
+         "in this sea; the other waves stay what they are. Significant wave height, from troughs "
+         "to crests, is what ramify info tells."},
+    {KEY_OF(SeaParams, crest, "crest", KEY_VECTOR), .count = 2, .unit = "m",
+     .doc = "x and z of the place of the great wave's crest."},
+    {KEY_OF(SeaParams, crest_time, "crest_time", KEY_FLOAT), .low = -1e6, .high = 1e6, .unit = "s",
+     .doc = "Time at which it is highest there."},
     {KEY_OF(SeaParams, bed, "bed", KEY_TEXT),
      .doc = "Name of an object, such as a terrain, that is the sea's bed and shore: waves turn "
             "toward it, grow, break and end on it. Default: the open sea."},

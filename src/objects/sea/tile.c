@@ -121,6 +121,39 @@ static Complex times(Complex a, Complex b)
     return (Complex){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
 
+// The phase of a wave at the place and the time of the great wave's crest.
+static double phase_at_crest(const Synthesis *s, const WaveMode *mode)
+{
+    const SeaParams *params = s->with.params;
+    return mode->kx * (double)params->crest[0] + mode->kz * (double)params->crest[1] -
+           mode->omega * (double)params->crest_time;
+}
+
+// Adds the great wave: to each wave a part in proportion to its variance that is in phase with all
+// others at the crest, which makes the mean surface about a crest of this height; what the random
+// waves have there already is taken off (Tromans et al. 1991; Taylor et al. 1997).
+static void add_crest(Synthesis *s)
+{
+    double have = 0.0, most = 0.0;
+    for (int i = 0; i < MODES * MODES; i++) {
+        const WaveMode *mode = &s->mode[i];
+        Complex a = mode->amplitude;
+        double sine, cosine;
+        turn(phase_at_crest(s, mode), &sine, &cosine);
+        have += 2.0 * (a.re * cosine - a.im * sine);
+        most += 2.0 * (a.re * a.re + a.im * a.im);
+    }
+    double factor = most > 0.0 ? ((double)s->with.params->crest_height - have) / most : 0.0;
+    for (int i = 0; i < MODES * MODES; i++) {
+        WaveMode *mode = &s->mode[i];
+        Complex *a = &mode->amplitude;
+        double sine, cosine, part = factor * (a->re * a->re + a->im * a->im);
+        turn(-phase_at_crest(s, mode), &sine, &cosine);
+        a->re += part * cosine;
+        a->im += part * sine;
+    }
+}
+
 // The coefficient of exp(i k x) at a time: that wave and the one that runs against it.
 static Complex coefficient(const WaveMode *with, const WaveMode *against, double time)
 {
@@ -288,6 +321,9 @@ bool sea_tile_fill(const SeaTile *with, WaveTile *tile, Error *e)
 {
     Synthesis s = {.with = *with, .tile = tile};
     bool done = find_modes(&s, e);
+    if (done && with->has_crest && with->params->crest_height > 0.0f) {
+        add_crest(&s);
+    }
     tile->levels = 0;
     while (tile->levels < WAVES_LEVELS && SIDE >> tile->levels >= LEAST_SIDE) {
         tile->levels++;

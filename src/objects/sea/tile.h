@@ -12,6 +12,7 @@ typedef struct SeaTile {
     double low, high; // 1/m: the band of wave numbers
     double breaker;   // m: the shortest wave that breaks
     bool trails;      // does its foam last?
+    bool has_crest;   // are its waves those of the great wave?
     uint64_t key;
     const Run *run;
 } SeaTile;

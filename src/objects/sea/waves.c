@@ -101,6 +101,7 @@ Waves *sea_waves(const SeaParams *params, uint64_t seed, const Run *run, Error *
                         .high = high,
                         .breaker = breaker,
                         .trails = i == 0,
+                        .has_crest = i == 0,
                         .key = random_key(seed, (uint64_t)i),
                         .run = run};
         bool done =
@@ -114,6 +115,7 @@ Waves *sea_waves(const SeaParams *params, uint64_t seed, const Run *run, Error *
     }
     waves->way = sea_way(params);
     waves->choppiness = params->choppiness;
+    waves->breakers = params->foam > 0.0f ? params->breakers : 0.0f;
     waves->shortest = (float)(TURN / shortest_shown(&waves->tile[WAVES_TILES - 1]));
     find_breaking(waves, params);
     find_hidden(waves, &spectrum, (double)params->wind);

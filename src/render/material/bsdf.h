@@ -48,7 +48,9 @@ typedef struct Bsdf {
     bool inside;        // wo is inside a dielectric body
     float favour;       // least chance of the reflection at a smooth dielectric; 0 at first
     float foam;         // on water: share of the pixel, of this reflectance
-    Vec3 foam_color;
+    Vec3 foam_color;    // of what it does not swallow
+    Vec3 foam_normal;   // unit, on wo's side
+    float foam_through; // share of that which leaves on the far side
 
     // The glossy lobe, and the energy that it leaves to the lobes below, looked up for wo.
     Vec3

@@ -11,10 +11,15 @@
 #include "render/material/foam.h"
 #include "render/material/maps.h"
 #include "render/material/material_ops.h"
+#include "render/material/pattern.h"
+#include "render/material/pattern_noise.h"
 #include "render/warp.h"
 
 #include <math.h>
 #include <stddef.h>
+
+// Share of what foam scatters that leaves on its far side: rafts are centimetres thick.
+#define FOAM_THROUGH 0.3f
 
 // Foam and what lies below it: bubbles that a breaker or a fall has taken down pale the water
 // around it, softly, in the colour `plume`. Sets the share of the pixel that scatters light at
@@ -27,6 +32,42 @@ static void whiten(Bsdf *b, float cover, float foam, Vec3 plume)
                                1.0f / b->foam);
 }
 
+// The slopes along x and y of the lumps of bubbles in dense foam, from decimetres to centimetres.
+static Vec2 lumps_slope(Vec2 at, float footprint)
+{
+    static const float size[] = {0.31f, 0.13f, 0.055f, 0.023f};
+    const float steep = 0.34f; // of each size
+    Vec2 slope = {0.0f, 0.0f};
+    for (uint32_t i = 0; i < sizeof size / sizeof size[0]; i++) {
+        float seen = pattern_detail(size[i], footprint);
+        if (seen <= 0.0f) {
+            break;
+        }
+        Vec3 gradient;
+        (void)noise_solid(vec3(at.x / size[i], 0.3f, at.y / size[i]), 861 + i, &gradient);
+        slope.x += seen * steep * gradient.x;
+        slope.y += seen * steep * gradient.z;
+    }
+    return slope;
+}
+
+// The normal of foam that lies on the water as thick as it is dense. at: where its share is looked
+// up, across and along `way`, unit in plan; step: m.
+static Vec3 foam_relief(Vec3 normal, Vec2 way, float cover, Vec2 at, float footprint)
+{
+    const float thick = 0.05f, steepest = 1.2f; // m; slope
+    float step = fmaxf(footprint, 0.012f);
+    Vec2 along = {at.x + step, at.y}, aside = {at.x, at.y + step};
+    float here = foam_share(cover, (FoamPlace){at, at}, footprint);
+    float x = foam_share(cover, (FoamPlace){along, along}, footprint) - here;
+    float y = foam_share(cover, (FoamPlace){aside, aside}, footprint) - here;
+    Vec2 lumps = lumps_slope(at, footprint);
+    x = clampf(thick * x / step + here * lumps.x, -steepest, steepest);
+    y = clampf(thick * y / step + here * lumps.y, -steepest, steepest);
+    Vec3 to = vec3(way.x, 0.0f, way.y), across = vec3(-way.y, 0.0f, way.x);
+    return vec3_normalize(vec3_madd(vec3_madd(normal, -x, to), -y, across));
+}
+
 static void whiten_sea(Bsdf *b, const WavePoint *wave, const Waves *waves,
                        const SurfacePoint *point)
 {
@@ -36,6 +77,10 @@ static void whiten_sea(Bsdf *b, const WavePoint *wave, const Waves *waves,
         Vec2 at = {point->uv.x * waves->way.x + point->uv.y * waves->way.y,
                    point->uv.y * waves->way.x - point->uv.x * waves->way.y};
         whiten(b, cover, foam_share(cover, (FoamPlace){at, at}, point->footprint), plume);
+        Vec3 up = point->backface ? vec3_neg(b->normal) : b->normal;
+        b->foam_normal = foam_relief(up, waves->way, cover, at, point->footprint);
+        b->foam_normal = point->backface ? vec3_neg(b->foam_normal) : b->foam_normal;
+        b->foam_through = FOAM_THROUGH;
     }
 }
 
@@ -77,8 +122,24 @@ static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *poi
 {
     maps_set_roughness(entry, b->roughness, b);
     bool mirror = b->roughness * b->roughness < LEAST_ALPHA && b->foam <= 0.0f;
+    if (point->waves && point->has_uv) {
+        // For the denoiser: water whose foam stands out.
+        b->albedo = vec3_lerp(vec3_splat(0.25f), b->foam_color, b->foam);
+    }
+    if (b->foam_through <= 0.0f) {
+        b->foam_normal = b->normal;
+    } else if (vec3_dot(b->foam_normal, b->geometric_normal) < 0.05f) {
+        b->foam_normal = b->normal;
+    }
     b->alpha = mirror ? 0.0f : b->alpha;
     dielectric_prepare(b, entry, point, cos_o);
+}
+
+// Density of what foam scatters toward wi.
+static float foam_density(const Bsdf *b, Vec3 wi)
+{
+    float cosine = vec3_dot(b->foam_normal, wi), share = 1.0f - b->foam_through;
+    return cosine > 0.0f ? share * cosine / PI_F : -b->foam_through * cosine / PI_F;
 }
 
 static Vec3 eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
@@ -87,15 +148,16 @@ static Vec3 eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
     if (b->foam <= 0.0f) {
         return f;
     }
-    float cosine = fmaxf(vec3_dot(b->normal, wi), 0.0f) * (1.0f / PI_F);
-    *pdf = lerpf(*pdf, cosine, b->foam);
-    return vec3_lerp(f, vec3_scale(b->foam_color, cosine), b->foam);
+    float density = foam_density(b, wi);
+    *pdf = lerpf(*pdf, density, b->foam);
+    return vec3_lerp(f, vec3_scale(b->foam_color, density), b->foam);
 }
 
 static bool draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
 {
     if (u[2] < b->foam) {
-        *wi = warp_cosine(b->normal, u[0], u[1]);
+        bool through = u[2] < b->foam * b->foam_through;
+        *wi = warp_cosine(through ? vec3_neg(b->foam_normal) : b->foam_normal, u[0], u[1]);
         return true;
     }
     const float rest[3] = {u[0], u[1], fminf((u[2] - b->foam) / (1.0f - b->foam), 0.99999994f)};
