@@ -54,11 +54,17 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"heath", PATTERN_HEATH},
                                     {0}};
 
-static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED}, {"plates", BARK_PLATES},
-                                 {"birch", BARK_BIRCH},       {"smooth", BARK_SMOOTH},
-                                 {"fibrous", BARK_FIBROUS},   {"flakes", BARK_FLAKES},
-                                 {"bands", BARK_BANDS},       {"scales", BARK_SCALES},
-                                 {"canes", BARK_CANES},       {0}};
+static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED},
+                                 {"plates", BARK_PLATES},
+                                 {"birch", BARK_BIRCH},
+                                 {"smooth", BARK_SMOOTH},
+                                 {"fibrous", BARK_FIBROUS},
+                                 {"flakes", BARK_FLAKES},
+                                 {"bands", BARK_BANDS},
+                                 {"scales", BARK_SCALES},
+                                 {"canes", BARK_CANES},
+                                 {"gnarled", BARK_GNARLED},
+                                 {0}};
 
 static const EnumName DISPLACEMENTS[] = {
     {"auto", DISPLACEMENT_AUTO}, {"off", DISPLACEMENT_OFF}, {"on", DISPLACEMENT_ON}, {0}};
@@ -195,7 +201,8 @@ static const Key MATERIAL_KEYS[] = {
             "of plane and eucalyptus; bands: glossy with corky bands (color2) across, as of "
             "cherry; scales: thin scales in layers, redder (color2) where one came off, as of "
             "spruce; canes: smooth, with rings at nodes and bloom (color2) below them, as of "
-            "bamboo."},
+            "bamboo; gnarled: plates of several sizes that break into small ones, fissured and "
+            "weathered to grey, with stretches of smooth young bark, as of old olives and apples."},
     {KEY_OF(Material, colors, "colors", KEY_LIST), .kinds = PATTERNED,
      .count_offset = offsetof(Material, color_count), .count = 64, .table = &color_stop_table,
      .doc = "Pattern altitude: its colours by altitude, linear between these; none = from color to "

@@ -145,7 +145,7 @@ static void has_no_seam(BarkKind kind)
 static void test_bark_has_no_seam(void **state)
 {
     (void)state;
-    for (int kind = BARK_FURROWED; kind <= BARK_CANES; kind++) {
+    for (int kind = BARK_FURROWED; kind <= BARK_GNARLED; kind++) {
         has_no_seam((BarkKind)kind);
     }
 }
@@ -240,7 +240,7 @@ static void test_bark_kinds(void **state)
         double least, most; // change around over change along
     } kinds[] = {{BARK_PLATES, 1.05, 3.0},  {BARK_BIRCH, 0.3, 0.9},   {BARK_SMOOTH, 0.1, 0.95},
                  {BARK_FIBROUS, 3.0, 50.0}, {BARK_FLAKES, 1.02, 2.0}, {BARK_BANDS, 0.1, 0.7},
-                 {BARK_SCALES, 1.02, 2.5},  {BARK_CANES, 0.05, 0.6}};
+                 {BARK_SCALES, 1.02, 2.5},  {BARK_CANES, 0.05, 0.6},  {BARK_GNARLED, 1.02, 2.5}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         Spread trunk = measure_kind(kinds[i].kind, 0.25f, 5e-4f);
         Spread thick = measure_kind(kinds[i].kind, 0.5f, 5e-4f);
@@ -328,6 +328,31 @@ static void test_birch_foot(void **state)
     assert_true(mean_between(&m, 0.15f, 0.8f, 1.2f).y < 0.45f * above);
 }
 
+// Old stems are broken into plates, between which stretches are young; thin limbs are all young.
+static void test_gnarled_bark_is_of_all_ages(void **state)
+{
+    (void)state;
+    Spread old = measure_kind(BARK_GNARLED, 0.3f, 5e-4f);
+    Spread limb = measure_kind(BARK_GNARLED, 0.03f, 5e-4f);
+    assert_true(old.tilt > 2.0 * limb.tilt && limb.tilt > 1e-4);
+    Material m = bark();
+    m.bark = BARK_GNARLED;
+    int smooth = 0, rough = 0;
+    for (int i = 0; i < 200; i++) {
+        double tilt = 0.0; // mean of a patch of 6 by 6 cm
+        float angle = random_range(random_key(5, (uint64_t)i), -2.9f, 2.9f);
+        float along = random_range(random_key(6, (uint64_t)i), 1.0f, 8.0f);
+        for (int k = 0; k < 36; k++) {
+            SurfacePoint p = trunk_point(angle + 0.01f / 0.3f * (float)(k % 6),
+                                         along + 0.01f * (float)(k / 6), 0.3f);
+            tilt += (double)(1.0f - vec3_dot(shade_of(&m, &p).normal, p.normal)) / 36.0;
+        }
+        smooth += tilt < 0.3 * old.tilt;
+        rough += tilt > 0.8 * old.tilt;
+    }
+    assert_true(smooth > 6 && smooth < 80 && rough > 60);
+}
+
 // Marks lie on one side of the stem, even if the middle of their cell is near its axis.
 static void test_birch_has_no_rings(void **state)
 {
@@ -411,7 +436,7 @@ static void without_branch(BarkKind kind)
 static void test_bark_without_branch(void **state)
 {
     (void)state;
-    for (int kind = BARK_FURROWED; kind <= BARK_CANES; kind++) {
+    for (int kind = BARK_FURROWED; kind <= BARK_GNARLED; kind++) {
         without_branch((BarkKind)kind);
     }
 }
@@ -788,6 +813,7 @@ int main(void)
         cmocka_unit_test(test_old_bark_ends),
         cmocka_unit_test(test_roots_are_dull),
         cmocka_unit_test(test_birch_foot),
+        cmocka_unit_test(test_gnarled_bark_is_of_all_ages),
         cmocka_unit_test(test_birch_has_no_rings),
         cmocka_unit_test(test_birches_differ),
         cmocka_unit_test(test_plates_slope),

@@ -94,7 +94,7 @@ static float from_axis(Vec3 p)
 static void rays_meet_the_height_of_the_pattern(void **state)
 {
     (void)state;
-    for (int bark = BARK_FURROWED; bark <= BARK_CANES; bark++) {
+    for (int bark = BARK_FURROWED; bark <= BARK_GNARLED; bark++) {
         World *world = stem_world((BarkKind)bark, 0.9f);
         Scan scan = scan_begin(world);
         float pixel = 2.0f * tanf(25.0f * PI_F / 180.0f) / 240.0f;
@@ -118,7 +118,10 @@ static void rays_meet_the_height_of_the_pattern(void **state)
         }
         // Between vertices 1.5 pixels (3 mm) apart the facets cut off steep walls.
         assert_true(error / count < 8e-4);
-        assert_true(high - low > (bark == BARK_FURROWED || bark == BARK_PLATES ? 0.012 : 0.0005));
+        assert_true(high - low >
+                    (bark == BARK_FURROWED || bark == BARK_PLATES || bark == BARK_GNARLED
+                         ? 0.012
+                         : 0.0005));
         scan_end(&scan);
         world_free(world);
     }
@@ -245,6 +248,45 @@ static void few_scars_of_smooth_bark_are_open(void **state)
     assert_true(3 * deep < 2 * below);
 }
 
+// Hollows are deep and dark in a roll of callus, and rotten wood in them is rough.
+static void hollows_are_rough_and_dark(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_BARK;
+    m.bark = BARK_GNARLED;
+    m.color = m.color2 = vec3(0.2f, 0.18f, 0.16f);
+    m.pattern_depth = 0.0f;
+    m.hollows = 1.0f;
+    double rough = 0.0, within = 0.0, outside = 0.0, red = 0.0;
+    int deep = 0, level = 0;
+    float highest = 0.0f;
+    for (int i = 0; i < 48 * 800; i++) {
+        float angle = 2.0f * PI_F * (float)(i % 48) / 48.0f, y = 2.0f + 0.01f * (float)(i / 48);
+        Vec3 n = vec3(sinf(angle), 0, cosf(angle));
+        SurfacePoint point = stem_point(n, angle * RADIUS, y);
+        PatternShade shade = {.color = m.color, .normal = n};
+        pattern_apply(&m, &point, &shade);
+        float height = pattern_height(&m, &point);
+        highest = fmaxf(highest, height);
+        if (height < -0.54f * RADIUS) {
+            point.object_position.y += 0.01f;
+            point.uv.y += 0.01f;
+            rough += (double)fabsf(pattern_height(&m, &point) - height);
+            within += (double)shade.color.y;
+            red += (double)shade.color.x;
+            deep++;
+        } else if (height > -1e-6f && height < 1e-6f) {
+            outside += (double)shade.color.y;
+            level++;
+        }
+    }
+    assert_true(deep > 500 && level > 5000);
+    assert_true(within / deep < 0.6 * outside / level && red > 1.3 * within);
+    assert_true(rough / deep > 0.002);
+    assert_true(highest > 0.08f * RADIUS && highest < 0.25f * RADIUS);
+}
+
 // A change of the relief rebuilds; one of the colour does not.
 static void structures_fit_the_relief(void **state)
 {
@@ -267,6 +309,7 @@ int main(void)
         cmocka_unit_test(far_stems_and_copies_keep_bumps),
         cmocka_unit_test(moss_and_scars_grow_where_they_are_asked_for),
         cmocka_unit_test(few_scars_of_smooth_bark_are_open),
+        cmocka_unit_test(hollows_are_rough_and_dark),
         cmocka_unit_test(structures_fit_the_relief),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -90,7 +90,8 @@ typedef enum BarkKind {
     BARK_FLAKES,   // patches of several ages, from color to color2: plane, eucalyptus
     BARK_BANDS,    // glossy, corky bands (color2) across: cherry
     BARK_SCALES,   // thin scales in layers, redder (color2) where one came off: spruce
-    BARK_CANES     // a smooth cane with raised rings at its nodes, bloom (color2) below: bamboo
+    BARK_CANES,    // a smooth cane with raised rings at its nodes, bloom (color2) below: bamboo
+    BARK_GNARLED   // plates of several sizes, broken, weathered to grey: old olive, apple
 } BarkKind;
 
 // How pictures are laid on a surface.

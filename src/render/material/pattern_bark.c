@@ -186,6 +186,8 @@ static BarkLook look_at(const Material *m, const StemPlace *place, float scale, 
         return bark_scales(m, place, scale, footprint);
     case BARK_CANES:
         return bark_canes(m, place, scale, footprint);
+    case BARK_GNARLED:
+        return bark_gnarled(m, place, scale, footprint);
     default:
         return bark_bands(m, place, scale, footprint);
     }

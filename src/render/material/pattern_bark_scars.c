@@ -114,7 +114,25 @@ static void add_ribs(const Material *m, const StemPlace *place, BarkSurface *bar
     bark->color = vec3_scale(bark->color, 1.0f - 0.35f * thick * m->ribs * in);
 }
 
-// Holes with a rolled lip; dry, brown wood within.
+// Wood that brown rot has eaten: it shrinks into cubes along the grain, between cracks, and its
+// fibres stand off. place: where it really lies, below the stem's surface. Returns its relief, m.
+static float add_rot(const StemPlace *place, float share, BarkSurface *bark)
+{
+    Vec3 torn, q = stem_lookup(place, 0.032f, 0.042f);
+    noise_solid(vec3_scale(q, 0.8f), 89, &torn);
+    CellPoint cube = noise_cells(vec3_madd(q, 0.16f, torn), 90);
+    float fibre = noise_solid(stem_lookup(place, 0.007f, 0.11f), 88, NULL);
+    float shred = noise_solid(stem_lookup(place, 0.022f, 0.34f), 96, NULL);
+    float crack = 1.0f - smoothstepf(0.0f, 0.13f, cube.border);
+    float own = noise_unit(cube.cell, 1), stain = noise_fractal(vec3_scale(q, 0.35f), 4, 97);
+    Vec3 fresh = vec3(0.118f, 0.060f, 0.029f), old = vec3(0.070f, 0.050f, 0.036f);
+    Vec3 wood = vec3_lerp(old, fresh, clampf(own + stain, 0.0f, 1.0f));
+    wood = vec3_scale(wood, (1.0f + 0.4f * fibre + 0.3f * shred) * (1.0f - 0.8f * crack));
+    bark->color = vec3_lerp(bark->color, wood, share);
+    return 0.003f * fibre + 0.007f * shred + 0.010f * (own - 0.5f) - 0.009f * crack;
+}
+
+// Holes in a roll of callus with a ragged edge; grey wood at their rims, rot within.
 static void add_hollow(const Material *m, const StemPlace *place, BarkSurface *bark)
 {
     float thick = smoothstepf(0.10f, 0.20f, place->radius);
@@ -125,16 +143,33 @@ static void add_hollow(const Material *m, const StemPlace *place, BarkSurface *b
     Vec3 torn, q = stem_lookup(place, spacing, 1.7f * spacing);
     noise_solid(stem_lookup(place, 0.11f, 0.2f), 86, &torn);
     Spot spot = spot_at(vec3_madd(q, 0.035f, torn), 0.9f * m->hollows, 0.18f, 0.38f, 87);
-    if (spot.t > 1.6f) {
+    if (spot.t > 1.8f) {
         return;
     }
-    float within = 1.0f - smoothstepf(0.35f, 0.92f, spot.t), guard = spot.guard * thick;
-    float fibre = noise_solid(stem_lookup(place, 0.012f, 0.16f), 88, NULL);
-    bark->form += guard * place->radius * (0.09f * bell(spot.t, 1.08f, 0.2f) - 0.6f * within) +
-                  guard * within * (0.009f * fibre + 0.012f * torn.x);
-    flatten(bark, guard * smoothstepf(1.15f, 0.85f, spot.t));
-    Vec3 wood = vec3_scale(vec3(0.135f, 0.092f, 0.058f), 1.0f + 0.35f * fibre - 0.45f * within);
-    bark->color = vec3_lerp(bark->color, wood, guard * smoothstepf(1.0f, 0.8f, spot.t));
+    // Fibres and splinters make the edge ragged along the grain.
+    float splinter = noise_solid(stem_lookup(place, 0.013f, 0.15f), 98, NULL);
+    float rag = noise_fractal(stem_lookup(place, 0.05f, 0.11f), 3, 99);
+    float edge = spot.t + 0.10f * rag + 0.05f * splinter, guard = spot.guard * thick;
+    float within = 1.0f - smoothstepf(0.52f, 0.94f, edge);
+    float roll = bell(spot.t + 0.06f * rag, 1.13f, 0.15f);
+    float depth = guard * place->radius * 0.6f * within,
+          rot = guard * smoothstepf(0.96f, 0.84f, edge);
+    bark->form += guard * place->radius * (0.10f + 0.05f * rag) * roll - depth;
+    flatten(bark, fmaxf(rot, 0.7f * guard * smoothstepf(1.35f, 1.1f, spot.t)));
+    // Callus is a smooth young skin.
+    float callus = guard * smoothstepf(1.4f, 1.15f, spot.t + 0.2f * rag);
+    Vec3 skin = vec3_scale(m->color, 0.95f + 0.25f * rag + 0.12f * splinter);
+    bark->color = vec3_lerp(bark->color, skin, 0.65f * callus);
+    if (rot <= 0.0f) {
+        return;
+    }
+    Vec3 grey = vec3_scale(vec3(0.20f, 0.18f, 0.155f), 1.0f + 0.45f * splinter + 0.3f * rag);
+    bark->color = vec3_lerp(bark->color, grey, rot);
+    StemPlace inner = *place;
+    float in = 1.0f - depth / place->radius;
+    inner.p = vec3(in * place->p.x, in * place->p.y, place->p.z);
+    float deep = guard * smoothstepf(0.93f, 0.72f, edge);
+    bark->form += deep * add_rot(&inner, deep, bark);
 }
 
 void bark_scars(const Material *m, const SurfacePoint *point, const StemPlace *place,

@@ -86,7 +86,7 @@ typedef struct BarkSurface {
 // Height of the kind's relief where it is neither in furrows nor on ridges.
 static inline float bark_mean_height(BarkKind bark)
 {
-    return bark == BARK_FURROWED || bark == BARK_PLATES ? 0.65f : 0.0f;
+    return bark == BARK_FURROWED || bark == BARK_PLATES || bark == BARK_GNARLED ? 0.65f : 0.0f;
 }
 
 // Add what the material asks for: scars of shed limbs, ribs and hollows; moss and lichen.
@@ -106,6 +106,7 @@ BarkLook bark_fibrous(const Material *m, const StemPlace *place, float scale, fl
 BarkLook bark_flakes(const Material *m, const StemPlace *place, float scale, float footprint);
 BarkLook bark_scales(const Material *m, const StemPlace *place, float scale, float footprint);
 BarkLook bark_canes(const Material *m, const StemPlace *place, float scale, float footprint);
+BarkLook bark_gnarled(const Material *m, const StemPlace *place, float scale, float footprint);
 BarkLook bark_bands(const Material *m, const StemPlace *place, float scale, float footprint);
 
 #endif
