@@ -98,7 +98,7 @@ static BarkLook old_bark(const Material *m, const StemPlace *place, float scale,
                          Vec3 wind)
 {
     BarkLook look = {.height = 1.0f};
-    float wide = 0.19f + 0.09f * wind.x;
+    float wide = 0.22f + 0.10f * wind.x;
     Cracked large = add_level(&look, place, vec3(0.050f * scale, 0.19f * scale, 0.0f), 0.62f, 0.5f,
                               wide, wind, 161);
     // Some plates are broken more than others.
@@ -117,7 +117,7 @@ static BarkLook old_bark(const Material *m, const StemPlace *place, float scale,
         grain = seen * add_flakes(&look, place, scale, 0.05f * seen);
     }
     float value =
-        0.80f + large.top * 0.26f * large.own + part * 0.34f * (small.own - 0.5f) + 0.14f * grain;
+        0.78f + large.top * 0.32f * large.own + part * 0.34f * (small.own - 0.5f) + 0.14f * grain;
     float up = large.rise * (1.0f - 0.6f * broken * (1.0f - small.rise)) *
                (1.0f - 0.6f * fminf(fissure, 1.0f));
     Vec3 color = weathered(m, place, scale, value, up);
@@ -132,7 +132,7 @@ static BarkLook old_bark(const Material *m, const StemPlace *place, float scale,
 static float age_of(const StemPlace *place, float scale)
 {
     float turn = noise_fractal(stem_lookup(place, 0.20f * scale, 0.75f * scale), 3, 168);
-    return smoothstepf(0.035f, 0.09f, place->radius) * smoothstepf(-0.34f, -0.12f, turn);
+    return smoothstepf(0.035f, 0.09f, place->radius) * smoothstepf(-0.41f, -0.19f, turn);
 }
 
 BarkLook bark_gnarled(const Material *m, const StemPlace *place, float scale, float footprint)

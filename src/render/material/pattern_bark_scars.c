@@ -118,18 +118,18 @@ static void add_ribs(const Material *m, const StemPlace *place, BarkSurface *bar
 // fibres stand off. place: where it really lies, below the stem's surface. Returns its relief, m.
 static float add_rot(const StemPlace *place, float share, BarkSurface *bark)
 {
-    Vec3 torn, q = stem_lookup(place, 0.032f, 0.042f);
+    Vec3 torn, q = stem_lookup(place, 0.022f, 0.034f);
     noise_solid(vec3_scale(q, 0.8f), 89, &torn);
     CellPoint cube = noise_cells(vec3_madd(q, 0.16f, torn), 90);
     float fibre = noise_solid(stem_lookup(place, 0.007f, 0.11f), 88, NULL);
     float shred = noise_solid(stem_lookup(place, 0.022f, 0.34f), 96, NULL);
     float crack = 1.0f - smoothstepf(0.0f, 0.13f, cube.border);
     float own = noise_unit(cube.cell, 1), stain = noise_fractal(vec3_scale(q, 0.35f), 4, 97);
-    Vec3 fresh = vec3(0.118f, 0.060f, 0.029f), old = vec3(0.070f, 0.050f, 0.036f);
+    Vec3 fresh = vec3(0.082f, 0.049f, 0.029f), old = vec3(0.056f, 0.043f, 0.033f);
     Vec3 wood = vec3_lerp(old, fresh, clampf(own + stain, 0.0f, 1.0f));
     wood = vec3_scale(wood, (1.0f + 0.4f * fibre + 0.3f * shred) * (1.0f - 0.8f * crack));
     bark->color = vec3_lerp(bark->color, wood, share);
-    return 0.003f * fibre + 0.007f * shred + 0.010f * (own - 0.5f) - 0.009f * crack;
+    return 0.003f * fibre + 0.007f * shred + 0.008f * (own - 0.5f) - 0.007f * crack;
 }
 
 // Holes in a roll of callus with a ragged edge; grey wood at their rims, rot within.

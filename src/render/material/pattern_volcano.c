@@ -32,19 +32,42 @@ static Ground tephra(const Material *m, const SurfacePoint *point, const Fray *f
     return g;
 }
 
-// Blocky lava, in heaps and pressure ridges: black when fresh; lichens and dust make it grey and
-// brown.
+// Folds that a flow pushes up across its way as its crust stiffens: about along the contours, more
+// of them the steeper it flows. Returns their slope per metre; *crest: 0 between them .. 1 on top.
+static Vec3 pressure_ridges(const SurfacePoint *point, float scale, float upright, float *crest)
+{
+    const float bend = 0.9f; // of folds, in folds
+    float rise = 0.05f * scale, height = 0.5f * rise;
+    PatternOctaves warp = pattern_octaves(point, 1.1f * scale, 3, 0.55f, 1.0f, 217);
+    float phase = PI_F * (point->object_position.y / rise + bend * warp.value);
+    float wave = sinf(phase), side = wave < 0.0f ? -1.0f : 1.0f;
+    float seen = pattern_detail(5.0f * rise, point->footprint) * smoothstepf(0.75f, 0.92f, upright);
+    *crest = lerpf(0.64f, fabsf(wave), seen);
+    Vec3 way = vec3_madd(vec3(0.0f, 1.0f / rise, 0.0f), bend, warp.slope);
+    return vec3_scale(way, seen * height * PI_F * side * cosf(phase));
+}
+
+// Blocky lava, in heaps and pressure ridges: black when fresh, in places red where hot gas came
+// through; lichens and dust make it grey and brown, crests first.
 static Ground lava(const Material *m, const SurfacePoint *point, const Fray *f, float scale,
-                   float fresh)
+                   float fresh, float upright)
 {
     PatternOctaves heaps = pattern_octaves(point, 0.28f * scale, 6, 0.68f, 0.8f, 211);
-    Vec3 old = {0.088f, 0.080f, 0.066f};
+    PatternOctaves zones = pattern_octaves(point, 2.6f * scale, 5, 0.6f, 1.0f, 219);
+    float crest;
+    Vec3 ridges = pressure_ridges(point, scale, upright, &crest);
+    Vec3 old = {0.088f, 0.080f, 0.066f}, rust = {0.088f, 0.043f, 0.031f};
     Vec3 color = vec3_lerp(old, m->color2, smoothstepf(0.1f, 0.75f, fresh));
+    float red = smoothstepf(0.28f, 0.62f, zones.value + 0.25f * f->fine + 0.2f * (crest - 0.6f));
+    color = vec3_lerp(color, rust, 0.8f * red);
+    float pale = smoothstepf(0.1f, 0.6f, -zones.value + 0.9f * (crest - 0.64f));
+    color = vec3_lerp(color, vec3(0.125f, 0.124f, 0.108f), 0.6f * pale);
     Vec3 grey = vec3_add(vec3_scale(color, 1.25f), vec3(0.016f, 0.016f, 0.014f));
     Ground g = slopes_talus(point, vec3_scale(color, 0.85f), grey, 0.9f * scale);
     float shade = 1.0f + 0.25f * clampf(heaps.value, -1.3f, 1.3f) + 0.12f * f->broad;
     g.color = vec3_scale(g.color, clampf(shade, 0.4f, 1.6f));
-    g.slope = vec3_madd(g.slope, 0.06f * scale, heaps.slope);
+    g.color = vec3_scale(g.color, 0.7f + 0.45f * crest);
+    g.slope = vec3_add(vec3_madd(g.slope, 0.06f * scale, heaps.slope), ridges);
     return g;
 }
 
@@ -98,7 +121,7 @@ void pattern_volcano(const Material *m, const SurfacePoint *point, PatternShade 
     Ground other = scoria(point, &f, scale, -ground);
     g = ground_blend(g, &other, red);
     float fresh = ground + 0.02f * f.fine;
-    other = lava(m, point, &f, scale, fresh);
+    other = lava(m, point, &f, scale, fresh, upright);
     g = ground_blend(g, &other, smoothstepf(0.04f, 0.12f, fresh));
     if (m->grass_line > 0.0f) {
         // Plants climb, and settle on lava with the centuries.
