@@ -245,7 +245,7 @@ static float lumps_at(float x, float z, float largest, float width)
     for (uint64_t i = 0; i < 5 && size > 2.0f * width; i++) {
         sum += share * noise_plane(x / size, z / size, 9311 + i);
         size *= 0.47f;
-        share *= 0.55f;
+        share *= 0.62f;
     }
     return sum;
 }
@@ -325,7 +325,8 @@ float waves_foam(const Waves *waves, const WavePoint *point)
 {
     // In surf waves of any steepness break, and the foam of a breaker lasts to the next one.
     float from = waves->foam * (1.0f - 0.85f * point->breaking), spread = waves->spread;
-    float crest = smoothstepf(from, from + 1.2f * spread, point->crowding);
+    const float dense = 0.94f; // water shows between the lumps of the freshest foam
+    float crest = dense * smoothstepf(from, from + 1.2f * spread, point->crowding);
     float trail = smoothstepf(from, from + 2.2f * spread, point->trail);
     float old = point->drift > 0.0f ? old_surf(waves, point) : 0.0f;
     return fmaxf(crest, 1.0f - (1.0f - 0.75f * trail) * (1.0f - old));

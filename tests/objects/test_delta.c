@@ -205,6 +205,58 @@ static void the_river_parts_into_many(void **state)
     grown_clear(&grown);
 }
 
+// Mean and most of the mud on a ring about the river's mouth, in cells, off the grid's rim.
+static void ring(const DeltaLand *land, double from, double to, double *mean, double *most)
+{
+    const Delta *d = land->model;
+    int64_t count = 0;
+    *mean = *most = 0.0;
+    for (int64_t i = 0; i < delta_count(d); i++) {
+        double x = (double)(i % d->columns) - d->mouth[0],
+               z = (double)(i / d->columns) - d->mouth[1];
+        double far = sqrt(x * x + z * z), load = (double)land->load[i];
+        if (d->kind[i] == DELTA_OPEN && far >= from && far < to) {
+            *mean += load;
+            *most = fmax(*most, load);
+            count++;
+        }
+    }
+    assert_true(count > 100);
+    *mean /= (double)count;
+}
+
+// Beyond the last channels mud goes on in plumes: less of it the farther out, and unevenly.
+static void mud_runs_out_in_plumes(void **state)
+{
+    (void)state;
+    TerrainParams params = small_delta();
+    params.delta.age = 0.3f;
+    MeasureList list = {0};
+    Grown grown;
+    HeightField *field = make_heights(&params, 5, 0, &list, &grown);
+    const DeltaLand *land = ((const Terrain *)grown.state)->delta;
+    const Delta *d = land->model;
+    double reach = 0.0;
+    for (int64_t i = 0; i < delta_count(d); i++) {
+        double x = (double)(i % d->columns) - d->mouth[0],
+               z = (double)(i / d->columns) - d->mouth[1];
+        bool channel = d->kind[i] == DELTA_OPEN && d->speed[i] > 0.3;
+        reach = channel ? fmax(reach, sqrt(x * x + z * z)) : reach;
+        assert_true(land->load[i] >= 0.0f && land->load[i] <= 1.2f);
+    }
+    double last = 1.0;
+    for (int k = 0; k < 3; k++) {
+        double mean, most, from = reach + 4.0 + 10.0 * k;
+        ring(land, from, from + 4.0, &mean, &most);
+        print_message("%.0f to %.0f cells: mud %.3f, up to %.3f\n", from, from + 4.0, mean, most);
+        assert_true(mean < last && mean > 0.005 && most > 1.4 * mean);
+        last = mean;
+    }
+    measures_clear(&list);
+    height_field_free(field);
+    grown_clear(&grown);
+}
+
 // The model does not know the terrain's grid: samples that two grids share are the same.
 static void a_finer_grid_shows_the_same_land(void **state)
 {
@@ -280,6 +332,7 @@ int main(void)
         cmocka_unit_test(threads_do_not_change_the_bed),
         cmocka_unit_test(measures_are_those_of_a_known_delta),
         cmocka_unit_test(the_river_parts_into_many),
+        cmocka_unit_test(mud_runs_out_in_plumes),
         cmocka_unit_test(a_finer_grid_shows_the_same_land),
         cmocka_unit_test(grids_agree_on_the_area),
         cmocka_unit_test(a_river_must_enter),

@@ -156,27 +156,101 @@ static void find_ages(DeltaLand *land, double total)
     }
 }
 
+// The way of the water, unit or 0, of each cell: that of the flow where there is one; elsewhere
+// spread from there, and bent to the right, as the Earth's turning bends plumes in the north.
+static bool find_ways(const DeltaLand *land, const uint8_t *flows, float *x, float *z, Error *e)
+{
+    const Delta *d = land->model;
+    const float bend = 0.3f; // to the right, of what goes ahead
+    int64_t count = delta_count(d);
+    uint8_t *known = memory_alloc(count, sizeof *known, e);
+    bool done = known;
+    for (int axis = 0; done && axis < 2; axis++) {
+        float *way = axis == 0 ? x : z;
+        for (int64_t i = 0; i < count; i++) {
+            double flow = sqrt(d->flow_x[i] * d->flow_x[i] + d->flow_z[i] * d->flow_z[i]);
+            known[i] = flows[i] == 1 && flow > 0.0;
+            way[i] = known[i] ? (float)((axis == 0 ? d->flow_x[i] : d->flow_z[i]) / flow) : 0.0f;
+        }
+        Spread s = {d, way, known, 1.0f};
+        done = spread(&s, 12, e);
+    }
+    for (int64_t i = 0; done && i < count; i++) {
+        if (!known[i] || known[i] == 2) {
+            float to_x = x[i] - bend * z[i], to_z = z[i] + bend * x[i];
+            float length = sqrtf(to_x * to_x + to_z * to_z);
+            x[i] = length > 0.0f ? to_x / length : 0.0f;
+            z[i] = length > 0.0f ? to_z / length : 0.0f;
+        }
+    }
+    free(known);
+    return done;
+}
+
+// Bilinear, at cells; on the rim beyond it.
+static float load_at(const Delta *d, const float *load, float column, float row)
+{
+    column = clampf(column, 0.0f, (float)(d->columns - 1));
+    row = clampf(row, 0.0f, (float)(d->rows - 1));
+    int c = (int)column, r = (int)row;
+    c = c > d->columns - 2 ? d->columns - 2 : c;
+    r = r > d->rows - 2 ? d->rows - 2 : r;
+    float u = column - (float)c, v = row - (float)r;
+    const float *at = load + (int64_t)r * d->columns + c;
+    return lerpf(lerpf(at[0], at[1], u), lerpf(at[d->columns], at[d->columns + 1], u), v);
+}
+
+// Plumes: where the river's water runs out to sea it carries its mud on, widens by mixing with the
+// sea beside it and loses some to the bed on its way. known: 1 where the mud is given.
+static bool run_out(DeltaLand *land, const uint8_t *known, Error *e)
+{
+    const float mixing = 0.16f, left = 0.97f; // a cell of its way
+    const Delta *d = land->model;
+    int64_t count = delta_count(d);
+    float *x = memory_alloc(count, sizeof *x, e), *z = memory_alloc(count, sizeof *z, e);
+    float *next = memory_alloc(count, sizeof *next, e);
+    bool done = x && z && next && find_ways(land, known, x, z, e);
+    for (int n = 0; done && n < d->columns; n++) {
+        for (int64_t i = 0; i < count; i++) {
+            next[i] = land->load[i];
+            if (known[i] != 1) {
+                float column = (float)(i % d->columns), row = (float)(i / d->columns);
+                float before = load_at(d, land->load, column - x[i], row - z[i]);
+                float beside =
+                    0.5f * (load_at(d, land->load, column - x[i] - z[i], row - z[i] + x[i]) +
+                            load_at(d, land->load, column - x[i] + z[i], row - z[i] - x[i]));
+                next[i] = left * lerpf(before, beside, mixing);
+            }
+        }
+        memcpy(land->load, next, (size_t)count * sizeof *next);
+    }
+    free(x);
+    free(z);
+    free(next);
+    return done;
+}
+
 static bool find_load(DeltaLand *land, uint8_t *known, Error *e)
 {
     const double least = 0.01; // water that tells, of the river's
     const Delta *d = land->model;
     for (int64_t i = 0; i < delta_count(d); i++) {
-        known[i] = is_wet(d, i) && d->water[i] > least;
+        bool runs = d->kind[i] == DELTA_TRUNK || is_channel(d, i);
+        known[i] = runs && is_wet(d, i) && d->water[i] > least;
         land->load[i] = known[i] ? (float)fmin(d->mud[i] / d->water[i], 1.2) : 0.0f;
     }
-    Spread s = {d, land->load, known, 0.985f};
-    if (!spread(&s, 60, e)) {
+    if (!run_out(land, known, e)) {
         return false;
     }
-    // At sea it mixes.
+    // Bays beside channels mix with them.
     for (int64_t i = 0; i < delta_count(d); i++) {
         known[i] = 1;
         if (d->kind[i] != DELTA_TRUNK && !is_channel(d, i)) {
             known[i] = 2;
         }
     }
-    s.fade = 1.0f;
-    return spread(&s, 6, e);
+    Spread s = {d, land->load, known, 1.0f};
+    return spread(&s, 3, e);
 }
 
 bool delta_land_finish(DeltaLand *land, double total, Error *e)
