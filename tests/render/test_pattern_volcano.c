@@ -47,8 +47,8 @@ static void lava_has_zones(void **state)
         float x = random_range(random_key(1, (uint64_t)i), -2000.0f, 2000.0f);
         float z = random_range(random_key(2, (uint64_t)i), -2000.0f, 2000.0f);
         Vec3 c = lava_at(x, z, 0.3f).color;
-        red += c.x > 1.5f * c.z;
-        grey += c.x < 1.25f * c.z;
+        red += c.x > 1.35f * c.z;
+        grey += c.x < 1.2f * c.z;
     }
     assert_true(red > count / 50 && red < count / 4);
     assert_true(grey > count / 2);

@@ -119,7 +119,7 @@ static BarkLook old_bark(const Material *m, const StemPlace *place, float scale,
     float value =
         0.78f + large.top * 0.32f * large.own + part * 0.34f * (small.own - 0.5f) + 0.14f * grain;
     float up = large.rise * (1.0f - 0.6f * broken * (1.0f - small.rise)) *
-               (1.0f - 0.6f * fminf(fissure, 1.0f));
+               (1.0f - 0.8f * fminf(fissure, 1.0f));
     Vec3 color = weathered(m, place, scale, value, up);
     // Walls of cracks show the warmer inner bark.
     float wall = 4.0f * up * (1.0f - up);

@@ -155,11 +155,11 @@ static void add_hollow(const Material *m, const StemPlace *place, BarkSurface *b
     float depth = guard * place->radius * 0.6f * within,
           rot = guard * smoothstepf(0.96f, 0.84f, edge);
     bark->form += guard * place->radius * (0.10f + 0.05f * rag) * roll - depth;
-    flatten(bark, fmaxf(rot, 0.7f * guard * smoothstepf(1.35f, 1.1f, spot.t)));
+    flatten(bark, fmaxf(rot, 0.45f * guard * smoothstepf(1.35f, 1.1f, spot.t)));
     // Callus is a smooth young skin.
     float callus = guard * smoothstepf(1.4f, 1.15f, spot.t + 0.2f * rag);
     Vec3 skin = vec3_scale(m->color, 0.95f + 0.25f * rag + 0.12f * splinter);
-    bark->color = vec3_lerp(bark->color, skin, 0.65f * callus);
+    bark->color = vec3_lerp(bark->color, skin, 0.45f * callus);
     if (rot <= 0.0f) {
         return;
     }

@@ -36,12 +36,14 @@ static Ground tephra(const Material *m, const SurfacePoint *point, const Fray *f
 // of them the steeper it flows. Returns their slope per metre; *crest: 0 between them .. 1 on top.
 static Vec3 pressure_ridges(const SurfacePoint *point, float scale, float upright, float *crest)
 {
-    const float bend = 0.9f; // of folds, in folds
+    const float bend = 2.6f; // of folds, in folds
     float rise = 0.05f * scale, height = 0.5f * rise;
-    PatternOctaves warp = pattern_octaves(point, 1.1f * scale, 3, 0.55f, 1.0f, 217);
+    PatternOctaves warp = pattern_octaves(point, 1.3f * scale, 5, 0.55f, 1.0f, 217);
+    float where = pattern_octaves(point, 1.9f * scale, 4, 0.6f, 1.0f, 221).value;
     float phase = PI_F * (point->object_position.y / rise + bend * warp.value);
     float wave = sinf(phase), side = wave < 0.0f ? -1.0f : 1.0f;
-    float seen = pattern_detail(5.0f * rise, point->footprint) * smoothstepf(0.75f, 0.92f, upright);
+    float seen = pattern_detail(5.0f * rise, point->footprint) *
+                 smoothstepf(0.75f, 0.92f, upright) * smoothstepf(-0.35f, 0.55f, where);
     *crest = lerpf(0.64f, fabsf(wave), seen);
     Vec3 way = vec3_madd(vec3(0.0f, 1.0f / rise, 0.0f), bend, warp.slope);
     return vec3_scale(way, seen * height * PI_F * side * cosf(phase));
@@ -59,14 +61,14 @@ static Ground lava(const Material *m, const SurfacePoint *point, const Fray *f, 
     Vec3 old = {0.088f, 0.080f, 0.066f}, rust = {0.088f, 0.043f, 0.031f};
     Vec3 color = vec3_lerp(old, m->color2, smoothstepf(0.1f, 0.75f, fresh));
     float red = smoothstepf(0.28f, 0.62f, zones.value + 0.25f * f->fine + 0.2f * (crest - 0.6f));
-    color = vec3_lerp(color, rust, 0.8f * red);
-    float pale = smoothstepf(0.1f, 0.6f, -zones.value + 0.9f * (crest - 0.64f));
-    color = vec3_lerp(color, vec3(0.125f, 0.124f, 0.108f), 0.6f * pale);
+    color = vec3_lerp(color, rust, 0.6f * red);
+    float pale = smoothstepf(0.1f, 0.6f, -zones.value + 0.45f * (crest - 0.64f));
+    color = vec3_lerp(color, vec3(0.125f, 0.124f, 0.108f), 0.45f * pale);
     Vec3 grey = vec3_add(vec3_scale(color, 1.25f), vec3(0.016f, 0.016f, 0.014f));
     Ground g = slopes_talus(point, vec3_scale(color, 0.85f), grey, 0.9f * scale);
     float shade = 1.0f + 0.25f * clampf(heaps.value, -1.3f, 1.3f) + 0.12f * f->broad;
     g.color = vec3_scale(g.color, clampf(shade, 0.4f, 1.6f));
-    g.color = vec3_scale(g.color, 0.7f + 0.45f * crest);
+    g.color = vec3_scale(g.color, 0.8f + 0.3f * crest);
     g.slope = vec3_add(vec3_madd(g.slope, 0.06f * scale, heaps.slope), ridges);
     return g;
 }
