@@ -114,16 +114,22 @@ static bool make_room(Tile *tile, Error *e)
            (tile->site = memory_alloc(count, sizeof *tile->site, e));
 }
 
-// Counted from the world's corner in doubles, so that a place has one position in all tiles.
+// x, z: in the finest cells from the world's corner, in doubles, so that a place has one position
+// in all tiles.
+static Vec3 place_at(const Tiling *t, int64_t x, int64_t z, float height)
+{
+    Vec3 p = vec3((float)((double)t->world->origin.x + cell_size(t) * (double)x), height,
+                  (float)((double)t->world->origin.y + cell_size(t) * (double)z));
+    p.y -= tile_view_sinks(t->view, p.x, p.z);
+    return p;
+}
+
 static Vec3 place_of(const Tiling *t, const Tile *tile, int column, int row, float height)
 {
     int64_t each = t->grid->cells / tile->cells;
     int64_t x = (int64_t)tile->column * t->grid->cells + column * each;
     int64_t z = (int64_t)tile->row * t->grid->cells + row * each;
-    Vec3 p = vec3((float)((double)t->world->origin.x + cell_size(t) * (double)x), height,
-                  (float)((double)t->world->origin.y + cell_size(t) * (double)z));
-    p.y -= tile_view_sinks(t->view, p.x, p.z);
-    return p;
+    return place_at(t, x, z, height);
 }
 
 float tile_view_sinks(const TileView *view, float x, float z)
@@ -234,7 +240,9 @@ static void side_place(int side, int cells, int along, int in, int place[2])
 static int side_edges(const Tiling *t, const Tile *tile, int side)
 {
     const Tile *other = tile_at(t, tile->column + BESIDE[side][0], tile->row + BESIDE[side][1]);
-    return other && other->cells < tile->cells ? other->cells : tile->cells;
+    int own = (t->world->columns - 1) / t->grid->count;
+    int beside = other ? other->cells : t->view->seam ? own : tile->cells;
+    return beside < tile->cells ? beside : tile->cells;
 }
 
 static void count_parts(Tiling *t, int64_t *vertices, int64_t *faces)
@@ -264,12 +272,35 @@ static void set_vertex(Mesh *mesh, int64_t vertex, const Tile *from, int column,
     mesh->uv[vertex] = (Vec2){from->position[i].x, from->position[i].z};
 }
 
+// A vertex of the tiles' rim at x, z (in the finest cells from the world's corner), if they end
+// there at the world's own samples.
+static bool set_seam_vertex(const Tiling *t, int64_t x, int64_t z, Mesh *mesh, int64_t vertex)
+{
+    const HeightField *world = t->world;
+    int64_t all = (int64_t)t->grid->count * t->grid->cells, each = all / (world->columns - 1);
+    if (!t->view->seam || t->view->beyond > 0 || (x > 0 && x < all && z > 0 && z < all)) {
+        return false;
+    }
+    int column = (int)(x / each), row = (int)(z / each);
+    int64_t i = (int64_t)row * world->columns + column;
+    Vec3 p = place_at(t, x, z, world->height[i]);
+    mesh->position[vertex] = p;
+    mesh->normal[vertex] = height_mesh_normal(world, column, row);
+    mesh->site[vertex] = height_mesh_site(world, i, t->low, t->high);
+    mesh->uv[vertex] = (Vec2){p.x, p.z};
+    return true;
+}
+
 // A vertex where tiles meet, from the coarsest of them. place: in the finest cells from the tile.
 static void set_border_vertex(const Tiling *t, const Tile *tile, const int place[2], Mesh *mesh,
                               int64_t vertex)
 {
     const Tile *coarsest = tile;
     int cells = t->grid->cells;
+    if (set_seam_vertex(t, (int64_t)tile->column * cells + place[0],
+                        (int64_t)tile->row * cells + place[1], mesh, vertex)) {
+        return;
+    }
     for (int k = 0; k < 9; k++) {
         int dx = k % 3 - 1, dz = k / 3 - 1;
         bool touches = (dx == 0 || place[0] == (dx < 0 ? 0 : cells)) &&

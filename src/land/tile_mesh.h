@@ -29,6 +29,8 @@ typedef struct TileView {
     const Vec3 *eye; // in the world's space; NULL = all tiles with the world's own cells, flat
     float cell;      // cells are at most this fraction of the distance to the eye
     int beyond;      // rings of the world around itself
+    bool seam;       // the land around the tiles is drawn otherwise: they end at the world's own
+                     // samples, or at fewer of them where tiles are coarser
     float curve;     // 1/m: a place lies lower by this times the square of its distance from the
                      // eye in plan; 1 / (2 R) on a ball of radius R
     const TileShaping *shaping; // NULL = none

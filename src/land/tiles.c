@@ -112,6 +112,7 @@ static bool take_records(HeightField *tile, const HeightField *world, const Tile
            take_record(&tile->change, world->change, 1, world, window, level, e) &&
            take_record(&tile->loose, world->loose, 1, world, window, level, e) &&
            take_record(&tile->ground, world->ground, 1, world, window, level, e) &&
+           take_record(&tile->age, world->age, 1, world, window, level, e) &&
            take_record((float **)(void *)&tile->wind, (const float *)(const void *)world->wind, 2,
                        world, window, level, e) &&
            height_field_take_place(tile, world, 0.0, 0.0, e);

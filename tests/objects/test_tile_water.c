@@ -50,10 +50,12 @@ static void make(Made *m, const TerrainParams *params, Vec3 eye, int threads)
     m->field = terrain_heights(&m->params, &m->grown, &m->run, &e);
     m->grid = (TileGrid){
         .count = TILES.count, .cells = TILES.cells, .detail = TILES.detail, .seed = SEED};
+    bool ends = terrain_tiles_end(params);
     m->view = (TileView){.eye = &m->eye,
                          .cell = 8.0f * params->mesh_error,
-                         .beyond = params->beyond,
-                         .curve = (float)(0.5 / 6371000.0)};
+                         .beyond = ends ? 0 : params->beyond,
+                         .seam = ends,
+                         .curve = ends ? 0.0f : (float)(0.5 / 6371000.0)};
     assert_true(tile_water_init(&m->water, terrain_of(m), m->field, TILES.count, &e));
     m->view.shaping = &m->water.shaping;
     m->mesh = tile_mesh_new(m->field, &m->grid, &m->view, &m->places, &m->run, &e);
@@ -347,11 +349,192 @@ static void trees_stand_on_drawn_land(void **state)
     drop(&m);
 }
 
+// ---- forms whose tiles end at the square's border
+
+static TerrainParams land_that_ends(int k)
+{
+    static const TerrainForm FORMS[] = {TERRAIN_MEANDER, TERRAIN_BRAIDED, TERRAIN_DELTA,
+                                        TERRAIN_COAST};
+    TerrainParams params = land_of(FORMS[k]);
+    params.meander.width = 100.0f;
+    params.meander.age = 0.4f;
+    params.braided.age = 0.02f;
+    params.delta.width = 250.0f;
+    params.delta.age = 0.3f;
+    params.evolution.cells = params.form == TERRAIN_BRAIDED ? 32 : 64;
+    params.resolution = k == 0 ? 128 : 64;
+    return params;
+}
+
+// Is a place of the scene at the square's border?
+static bool is_at_border(const Made *m, Vec3 p)
+{
+    float half = 0.5f * m->params.size - 0.01f;
+    return fabsf(p.x - m->params.position.x) > half || fabsf(p.z - m->params.position.z) > half;
+}
+
+static bool has_vertex(const Mesh *mesh, Vec3 p)
+{
+    bool found = false;
+    for (int64_t i = 0; !found && i < mesh->vertex_count; i++) {
+        Vec3 q = mesh->position[i];
+        found = p.x == q.x && p.y == q.y && p.z == q.z;
+    }
+    return found;
+}
+
+// All samples of the rim are vertices of both the tiles and the land that is copied around them;
+// what the tiles have there beside those is nothing. Near the eye their cells are smaller.
+static void tiles_end_at_the_lands_own_samples(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        Made m;
+        TerrainParams params = land_that_ends(k);
+        make(&m, &params, vec3(1500.0f, 80.0f, 1990.0f), 2);
+        check_land(&m);
+        const Mesh *land = m.geometry.part[0].mesh, *around = m.geometry.part[1].mesh;
+        bool copied = params.form != TERRAIN_DELTA;
+        int64_t rim = 0;
+        for (int64_t i = 0; i < land->vertex_count; i++) {
+            Vec3 p = land->position[i];
+            if (!is_at_border(&m, p)) {
+                continue;
+            }
+            Vec3 own = vec3_sub(p, params.position);
+            double c = (double)(own.x - m.field->origin.x) / (double)m.field->cell.x;
+            double r = (double)(own.z - m.field->origin.y) / (double)m.field->cell.y;
+            assert_true(fabs(c - round(c)) < 1e-3 && fabs(r - round(r)) < 1e-3);
+            int64_t sample = (int64_t)round(r) * m.field->columns + (int64_t)round(c);
+            Vec3 there = vec3(own.x, m.field->height[sample], own.z);
+            assert_true(p.y == vec3_add(there, params.position).y);
+            assert_true(!copied || has_vertex(around, p));
+            rim++;
+        }
+        int finest = tile_mesh_cells(m.field, &m.grid, &m.view, 14, 15);
+        print_message("form %d: %d vertices at the rim, %d cells a tile near the eye\n", k,
+                      (int)rim, finest);
+        // Tiles meet each other there in two vertices of the same bits; coarse tiles have fewer.
+        assert_true(rim <= 4 * params.resolution + 4 * 16 && rim > 4 * 16);
+        assert_true(finest > 2 * params.resolution / TILES.count);
+        assert_true(!copied || m.geometry.part[1].instance_count > 0);
+        drop(&m);
+    }
+}
+
+// Is all the water around a sample, on it and on the eight beside it, known and over the ground?
+static bool is_deep(const HeightField *f, int64_t i)
+{
+    int64_t column = i % f->columns, row = i / f->columns;
+    bool deep = column > 0 && row > 0 && column + 1 < f->columns && row + 1 < f->rows;
+    for (int k = 0; deep && k < 9; k++) {
+        int64_t n = i + (int64_t)(k / 3 - 1) * f->columns + k % 3 - 1;
+        deep = f->water[n] > f->height[n];
+    }
+    return deep;
+}
+
+// The square's own sheet of broad water: the largest.
+static const Mesh *broad_water(const Made *m)
+{
+    const Mesh *water = NULL;
+    for (int64_t i = 0; i < m->geometry.count; i++) {
+        const Part *part = &m->geometry.part[i];
+        bool larger = !water || part->mesh->vertex_count > water->vertex_count;
+        water = part->is_water && part->instance_count == 0 && larger ? part->mesh : water;
+    }
+    return water;
+}
+
+typedef struct Shores {
+    int64_t outline, cut, deep; // places of the outline; edges of it that lie over the land's own
+                                // samples, where no shore is; samples under deep water
+    double over;                // m: the highest water over the drawn land at shores
+} Shores;
+
+// m by which the water stands over the land's own samples at a vertex.
+static float stands_over(const Made *m, Vec3 p)
+{
+    Vec3 own = vec3_sub(p, m->params.position);
+    return own.y - height_field_at(m->field, own.x, own.z);
+}
+
+static void look_at_edge(const Made *m, Vec3 a, Vec3 b, Shores *s)
+{
+    if (is_at_border(m, a) && is_at_border(m, b)) {
+        return;
+    }
+    if (stands_over(m, a) > 0.001f || stands_over(m, b) > 0.001f) {
+        s->cut++;
+        return;
+    }
+    for (int n = 0; n <= 8; n++) {
+        Vec3 p = vec3_lerp(a, b, (float)n / 8.0f);
+        if (!is_at_border(m, p)) {
+            s->over = fmax(s->over, (double)(p.y - land_below(m, p)));
+            s->outline++;
+        }
+    }
+}
+
+static void look_at_shores(const Made *m, const Mesh *water, Shores *s)
+{
+    int64_t corners = 4 * water->face_count;
+    int32_t *first = malloc(sizeof *first * (size_t)water->vertex_count);
+    int32_t *next = malloc(sizeof *next * (size_t)corners);
+    memset(first, 0xff, sizeof *first * (size_t)water->vertex_count);
+    for (int64_t c = 0; c < corners; c++) {
+        next[c] = first[water->index[c]];
+        first[water->index[c]] = (int32_t)c;
+    }
+    for (int64_t c = 0; c < corners; c++) {
+        uint32_t a = water->index[c], b = water->index[c % 4 == 3 ? c - 3 : c + 1];
+        if (!is_shared(water, a, b, first, next)) {
+            look_at_edge(m, water->position[a], water->position[b], s);
+        }
+    }
+    free(next);
+    free(first);
+}
+
+// The broad water's outline lies on the drawn ground or under it, and where the land's samples are
+// deep under water, the drawn ground is, too.
+static void broad_water_ends_at_drawn_shores(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        Made m;
+        TerrainParams params = land_that_ends(k);
+        make(&m, &params, vec3(300.0f, 150.0f, 500.0f), 2);
+        const Mesh *water = broad_water(&m);
+        assert_non_null(water);
+        Shores s = {0};
+        look_at_shores(&m, water, &s);
+        for (int64_t i = 0; i < height_field_count(m.field); i++) {
+            if (is_deep(m.field, i)) {
+                float x = m.field->origin.x + (float)(i % m.field->columns) * m.field->cell.x;
+                int64_t row = i / m.field->columns;
+                float z = m.field->origin.y + (float)row * m.field->cell.y;
+                assert_true(tile_places_height(&m.places, m.mesh, x, z) < m.field->water[i]);
+                s.deep++;
+            }
+        }
+        print_message("form %d: outline at %d places, over the land by %.4f m; %d edges are cut; "
+                      "%d deep samples\n",
+                      k, (int)s.outline, s.over, (int)s.cut, (int)s.deep);
+        assert_true(s.outline > 500 && s.over < 0.011 && s.deep > 20);
+        assert_int_equal(s.cut, 0);
+        drop(&m);
+    }
+}
+
 static void threads_change_no_bit(void **state)
 {
     (void)state;
-    for (int k = 0; k < 2; k++) {
-        TerrainParams params = k == 0 ? land_of_lakes() : land_of_rivers();
+    for (int k = 0; k < 4; k++) {
+        TerrainParams params = k == 0   ? land_of_lakes()
+                               : k == 1 ? land_of_rivers()
+                                        : land_that_ends(k == 2 ? 0 : 3);
         params.forest.count = 2000;
         Made one, three;
         make(&one, &params, vec3(300.0f, 200.0f, 500.0f), 1);
@@ -378,9 +561,14 @@ static void threads_change_no_bit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(places_tell_the_drawn_height), cmocka_unit_test(lakes_end_at_drawn_shores),
-        cmocka_unit_test(rivers_run_in_drawn_beds),     cmocka_unit_test(trees_stand_on_drawn_land),
-        cmocka_unit_test(water_falls_over_drawn_land),  cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(places_tell_the_drawn_height),
+        cmocka_unit_test(lakes_end_at_drawn_shores),
+        cmocka_unit_test(rivers_run_in_drawn_beds),
+        cmocka_unit_test(trees_stand_on_drawn_land),
+        cmocka_unit_test(water_falls_over_drawn_land),
+        cmocka_unit_test(tiles_end_at_the_lands_own_samples),
+        cmocka_unit_test(broad_water_ends_at_drawn_shores),
+        cmocka_unit_test(threads_change_no_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

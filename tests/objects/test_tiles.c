@@ -281,6 +281,51 @@ static void tiles_meet_without_cracks(void **state)
     }
 }
 
+// With a seam the tiles are a disc too, whose rim is the world's own samples: where its tiles are
+// finer, coarser, or as fine.
+static void a_seam_has_the_worlds_samples(void **state)
+{
+    (void)state;
+    HeightField *world = make_world(false);
+    TileView view = NEAR;
+    view.beyond = 0;
+    view.seam = true;
+    Vec3 eye = vec3(500.0f, 60.0f, -300.0f);
+    view.eye = &eye;
+    Mesh *mesh = draw(world, &view, 2);
+    int rim = 0;
+    for (int t = 0; t < 8; t++) {
+        int along[4][2] = {{t, 0}, {t, 7}, {0, t}, {7, t}};
+        for (int k = 0; k < 4; k++) {
+            int cells = tile_mesh_cells(world, &DRAWN, &view, along[k][0], along[k][1]);
+            rim += cells < WORLD / 8 ? cells : WORLD / 8;
+        }
+    }
+    int64_t found = 0;
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        Vec3 p = mesh->position[i];
+        if (fabsf(p.x) == 512.0f || fabsf(p.z) == 512.0f) {
+            int64_t column = (int64_t)((p.x + 512.0f) / 16.0f),
+                    row = (int64_t)((p.z + 512.0f) / 16.0f);
+            assert_true(p.x == 16.0f * (float)column - 512.0f &&
+                        p.z == 16.0f * (float)row - 512.0f);
+            assert_true(p.y == world->height[row * world->columns + column]);
+            found++;
+        }
+    }
+    assert_true(found >= rim);
+    weld(mesh);
+    MeshTopology topology;
+    assert_true(mesh_topology(mesh, &topology, NULL));
+    assert_int_equal(topology.open_edges, rim);
+    assert_int_equal(topology.overused_edges, 0);
+    assert_int_equal(topology.misoriented_edges, 0);
+    assert_int_equal(topology.component_count, 1);
+    assert_int_equal(topology.euler_number, 1);
+    mesh_free(mesh);
+    height_field_free(world);
+}
+
 // The least of the cells a side of the tiles that touch a tile, itself among them.
 static int coarsest_around(const HeightField *world, int column, int row)
 {
@@ -433,6 +478,7 @@ int main(void)
         cmocka_unit_test(flat_land_stays_flat),
         cmocka_unit_test(wrong_tiles_are_refused),
         cmocka_unit_test(tiles_meet_without_cracks),
+        cmocka_unit_test(a_seam_has_the_worlds_samples),
         cmocka_unit_test(drawn_tiles_are_the_tiles),
         cmocka_unit_test(far_land_is_coarse_and_sinks),
         cmocka_unit_test(threads_change_no_bit_of_the_mesh),

@@ -224,9 +224,9 @@ static const Case scenes[] = {
     {"objects: [{name: a, terrain: {resolution: 16, tiles: {count: 32, drawn: true}}}]\n",
      ":1:73: objects.a.terrain.tiles.drawn is true; that needs at most as many tiles a side as the "
      "terrain has cells, 16, not 32"},
-    {"objects: [{name: a, terrain: {form: delta, tiles: {count: 16, drawn: true}}}]\n",
-     ":1:70: objects.a.terrain.tiles.drawn is true; forms braided, meander, delta and coast, and "
-     "a map (show: map or tree), cannot be drawn of tiles"},
+    {"objects: [{name: a, terrain: {show: map, tiles: {count: 16, drawn: true}}}]\n",
+     ":1:68: objects.a.terrain.tiles.drawn is true; a map (show: map or tree) is flat and is not "
+     "drawn of tiles"},
     {"objects: [{name: a, terrain: {form: dunes, lakes: {count: 3}}}]\n",
      ":1:59: objects.a.terrain.lakes.count is 3; forms braided, meander, delta, dunes and coast "
      "have no "

@@ -6,6 +6,8 @@
 #include "objects/terrain/drawn.h"
 #include "objects/terrain/form.h"
 
+#include <stdlib.h>
+
 // Moves a mesh of the land to the terrain's place and gives it its beds. ERROR_MEMORY.
 static bool move_land(Mesh *mesh, const Terrain *terrain, Error *e)
 {
@@ -83,6 +85,22 @@ bool terrain_add_copies(Mesh *mesh, const TerrainParams *params, const Placing *
     return placing_add(placing, part, role, e);
 }
 
+// What is to be a vertex of the land around the square: where water is near; the rim, if tiles end
+// there, so that both meet. The caller frees it; NULL: ERROR_MEMORY.
+static uint8_t *kept_beyond(const Terrain *terrain, const HeightField *field, Error *e)
+{
+    const TerrainParams *params = terrain->params;
+    const uint8_t *bank = terrain_form(params)->water ? terrain->bank : NULL;
+    uint8_t *keep = memory_alloc_zero(height_field_count(field), 1, e);
+    for (int64_t i = 0; keep && i < height_field_count(field); i++) {
+        int64_t column = i % field->columns, row = i / field->columns;
+        bool rim =
+            column == 0 || row == 0 || column + 1 == field->columns || row + 1 == field->rows;
+        keep[i] = (bank && bank[i]) || (rim && params->tiles.drawn);
+    }
+    return keep;
+}
+
 // The land around the square: coarser, as it is farther from the eye.
 static bool add_beyond(const Terrain *terrain, const HeightField *field, const Placing *placing,
                        Error *e)
@@ -94,9 +112,10 @@ static bool add_beyond(const Terrain *terrain, const HeightField *field, const P
     if (terrain_form(params)->beyond) {
         return terrain_form(params)->beyond(terrain, placing, e);
     }
-    HeightMeshParams meshing = {.error = 0.25f * params->mesh_error * params->size,
-                                .keep = terrain_form(params)->water ? terrain->bank : NULL};
-    Mesh *mesh = height_mesh_new(field, &meshing, e);
+    uint8_t *keep = kept_beyond(terrain, field, e);
+    HeightMeshParams meshing = {.error = 0.25f * params->mesh_error * params->size, .keep = keep};
+    Mesh *mesh = keep ? height_mesh_new(field, &meshing, e) : NULL;
+    free(keep);
     mesh = put_in_place(mesh, terrain, e);
     return mesh && terrain_add_copies(mesh, params, placing, TERRAIN_LAND, e);
 }
@@ -129,14 +148,15 @@ static bool add_cover(const DrawnLand *land, const Placing *placing, Error *e)
            (land->terrain->params->forest.count <= 0 || terrain_add_forest(land, placing, e));
 }
 
-// The land and what lies beyond, of its tiles. They are moved to their place when the water and the
-// trees are on them.
+// The land of its tiles, and what lies beyond, of tiles too unless they end at the border. They are
+// moved to their place when the water and the trees are on them.
 static bool add_tiles(const Terrain *terrain, const HeightField *field, const Placing *placing,
                       Error *e)
 {
     const double earth = 6371000.0; // m
     const TerrainParams *params = terrain->params;
     const Vec3 *eye = placing->around.eye;
+    bool ends = terrain_tiles_end(params);
     Vec3 own_eye = eye ? vec3_sub(*eye, params->position) : vec3_splat(0.0f);
     TileGrid grid = {.count = params->tiles.count,
                      .cells = params->tiles.cells,
@@ -144,8 +164,9 @@ static bool add_tiles(const Terrain *terrain, const HeightField *field, const Pl
                      .seed = terrain->seed};
     TileView view = {.eye = eye ? &own_eye : NULL,
                      .cell = 8.0f * params->mesh_error,
-                     .beyond = params->beyond,
-                     .curve = (float)(0.5 / earth)};
+                     .beyond = ends ? 0 : params->beyond,
+                     .seam = ends,
+                     .curve = ends ? 0.0f : (float)(0.5 / earth)};
     TileWater water;
     TilePlaces places = {0};
     bool done = tile_water_init(&water, terrain, field, grid.count, e);
@@ -154,7 +175,8 @@ static bool add_tiles(const Terrain *terrain, const HeightField *field, const Pl
     DrawnLand land = {
         .terrain = terrain, .field = field, .mesh = mesh, .places = &places, .view = &view};
     done = mesh && placing_add(placing, (Part){.mesh = mesh}, TERRAIN_LAND, e) &&
-           add_cover(&land, placing, e) && move_land(mesh, terrain, e);
+           (!ends || add_beyond(terrain, field, placing, e)) && add_cover(&land, placing, e) &&
+           move_land(mesh, terrain, e);
     tile_places_clear(&places);
     tile_water_clear(&water);
     return done;

@@ -197,8 +197,10 @@ static void lay_sample(const Plain *plain, int64_t i, float x, float z, float ro
     f->age[i] = t->left[i] < 0.0f ? old : 0.74f * since / (since + 9.0f);
     f->age[i] = hill > 0.02f * plain->p.relief ? 0.8f : f->age[i];
     f->height[i] = site.height + plane + hill;
-    bool near = fabsf(t->aside[i]) < 3.0f || (t->open[i] > 0.0f && t->old[i] < INFINITY);
-    f->water[i] = near ? plane : -INFINITY;
+    // Known in all of the plain: were it so near the river and in old bends alone, water would be
+    // cut off along the samples wherever either has been worked over.
+    bool near = fabsf(t->aside[i]) < 3.0f || t->old[i] < INFINITY;
+    f->water[i] = near || !(hill > 0.0f) ? plane : -INFINITY;
     float damp = 1.0f - site.height / (1.25f * BANK * w);
     f->wetness[i] = site.wet ? 1.0f : hill > 0.0f ? 0.0f : clampf(damp, 0.0f, 0.95f);
     f->loose[i] = hill > 0.0f ? 0.5f : DEPTH * w;

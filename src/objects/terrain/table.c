@@ -381,8 +381,10 @@ static const Key TILE_KEYS[] = {
             "cell is larger than 8 mesh_error of its distance. The land beyond the square is of "
             "tiles, too, and all of it lies on the Earth's curve. Tiles with rivers or lakes have "
             "at least the terrain's own cells, with beds and shores of as fine ground. Rivers and "
-            "lakes go on beyond the square; waterfalls and the terrain's forest do not. Not of "
-            "forms braided, meander, delta and coast, nor as a map."},
+            "lakes go on beyond the square; waterfalls and the terrain's forest do not. Of forms "
+            "braided, meander, delta and coast the square alone is of tiles, on a flat Earth, and "
+            "ends at the terrain's own samples, where the land around it begins as without tiles. "
+            "Not as a map."},
     {0},
 };
 
@@ -533,8 +535,8 @@ static bool check_tiles(const Mapping *mapping, const TerrainParams *terrain)
     }
     if (tiles->drawn && !terrain_can_be_tiled(terrain)) {
         return mapping_fail(mapping, "tiles.drawn",
-                            " is true; forms braided, meander, delta and coast, and a map (show: "
-                            "map or tree), cannot be drawn of tiles");
+                            " is true; a map (show: map or tree) is flat and is not drawn of "
+                            "tiles");
     }
     if ((tiles->count & (tiles->count - 1)) != 0) {
         return mapping_fail(mapping, "tiles.count", " is %d; it must be a power of two, such as 64",

@@ -22,9 +22,14 @@ bool terrain_holds_lakes(const TerrainParams *params)
 
 bool terrain_can_be_tiled(const TerrainParams *params)
 {
+    return params->show == SHOW_LAND;
+}
+
+bool terrain_tiles_end(const TerrainParams *params)
+{
     const Form *form = terrain_form(params);
     bool square = form->repeat == REPEAT_MIRRORED || form->repeat == REPEAT_PERIODIC;
-    return square && !form->water && !form->beyond && params->show == SHOW_LAND;
+    return !square || form->water || form->beyond;
 }
 
 bool terrain_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)

@@ -238,8 +238,12 @@ extern ColorStop terrain_altitudes[TERRAIN_ALTITUDES];
 // May there be lakes at their spill levels?
 bool terrain_holds_lakes(const TerrainParams *params);
 
-// May it be drawn of tiles? Only if it has no surroundings and no broad flow of its own.
+// May it be drawn of tiles? A map is no land.
 bool terrain_can_be_tiled(const TerrainParams *params);
+// Do its tiles end at the square's border? Surroundings of a form's own, copies that fall with the
+// valley or lie along the shore alone, and broad water, which the copies share with the square, are
+// drawn as those of land that is not tiled, all on a flat Earth.
+bool terrain_tiles_end(const TerrainParams *params);
 
 // Does the land come from processes that wear it?
 bool terrain_evolves(const TerrainParams *params);

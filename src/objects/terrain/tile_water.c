@@ -2,6 +2,7 @@
 // samples, and no roughness lets a lake run out or rise above its water.
 #include "base/memory.h"
 #include "objects/terrain/drawn.h"
+#include "objects/terrain/form.h"
 #include "objects/terrain/lakes.h"
 
 #include <math.h>
@@ -108,8 +109,74 @@ static float shaped_by_rivers(const TileWater *water, const TileSample *sample, 
     return lerpf(land, height, smoothstepf(reach, far, away));
 }
 
+// ---- water whose level the heights record
+
+// The water's level at a place of a cell, or where that is beside it at the cell's nearest place;
+// -INFINITY: the cell has no water (flow_water.c). *under: its corners under water.
+static float flow_level(const HeightField *field, int64_t column, int64_t row, double u, double v,
+                        int *under)
+{
+    float level[4];
+    *under = 0;
+    for (int k = 0; k < 4; k++) {
+        int64_t i = (row + k / 2) * field->columns + column + k % 2;
+        level[k] = field->water[i];
+        if (!(level[k] > -INFINITY)) {
+            *under = 0;
+            return -INFINITY;
+        }
+        *under += level[k] > field->height[i];
+    }
+    float s = clampf((float)(u - (double)column), 0.0f, 1.0f);
+    float t = clampf((float)(v - (double)row), 0.0f, 1.0f);
+    return *under == 0 ? -INFINITY
+                       : lerpf(lerpf(level[0], level[1], s), lerpf(level[2], level[3], s), t);
+}
+
+// As of lakes: under all of a cell's water the ground keeps half of its depth, where the water ends
+// half of its height above it, and between them the finer ground draws the shore.
+static float shaped_by_flow(const TileWater *water, const TileSample *sample, float height)
+{
+    const float close = 0.01f; // m
+    const HeightField *field = water->field;
+    if (!terrain_form(water->terrain->params)->water || !field->water) {
+        return height;
+    }
+    int64_t first[2] = {(int64_t)ceil(sample->u) - 1, (int64_t)ceil(sample->v) - 1};
+    int64_t last[2] = {(int64_t)floor(sample->u), (int64_t)floor(sample->v)};
+    bool wet = true, covers = true;
+    float beside = -INFINITY, here = -INFINITY;
+    for (int64_t row = first[1] - 1; row <= last[1] + 1; row++) {
+        for (int64_t column = first[0] - 1; column <= last[0] + 1; column++) {
+            if (row < 0 || column < 0 || row + 1 >= field->rows || column + 1 >= field->columns) {
+                continue;
+            }
+            int under;
+            float level = flow_level(field, column, row, sample->u, sample->v, &under);
+            beside = fmaxf(beside, level);
+            if (column >= first[0] && column <= last[0] && row >= first[1] && row <= last[1]) {
+                wet = wet && under > 0;
+                covers = covers && under == 4;
+                here = fmaxf(here, level);
+            }
+        }
+    }
+    float coarse = height_field_at(field, sample->at.x, sample->at.y);
+    if (wet) {
+        return covers ? fminf(height, 0.5f * (coarse + here)) : height;
+    }
+    if (!(beside > -INFINITY)) {
+        return height;
+    }
+    // Where the record of levels ends below one, the water stands over the ground no higher than it
+    // does without tiles.
+    float least = coarse > beside - close ? fmaxf(beside, 0.5f * (coarse + beside)) : coarse;
+    return fmaxf(height, least);
+}
+
 static float shaped(const void *data, const TileSample *sample, float height)
 {
+    height = shaped_by_flow(data, sample, height);
     return shaped_by_rivers(data, sample, shaped_by_lakes(data, sample, height));
 }
 

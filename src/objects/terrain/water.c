@@ -271,7 +271,8 @@ static bool add_standing_and_flowing(const DrawnLand *land, const Placing *placi
 bool terrain_add_water(const DrawnLand *land, const Placing *placing, Error *e)
 {
     const Terrain *terrain = land->terrain;
-    int rings = land->mesh ? terrain->params->beyond : 0;
+    bool copied = land->mesh && !terrain_tiles_end(terrain->params);
+    int rings = copied ? terrain->params->beyond : 0;
     DrawnLand copy = *land;
     bool done = add_standing_and_flowing(land, placing, e) &&
                 (!terrain->water || terrain_add_falls(land, placing, e));
