@@ -96,6 +96,8 @@ static void needs(const void *given, Needs *needs)
         log(fmax((double)params->extent * 6.28 / (spokes * (double)params->finest), 1.0));
     needs_add(needs, "spokes", spokes * spokes * (1.0 + growing) / 6.28, vertex_bytes);
     needs_add(needs, "sea", WAVES_TILES, tile_bytes);
+    // A gale's are a tenth of that; each is 8 triangles.
+    needs_add_skin(needs, "drops", 8.0 * 1e5 * (double)params->drops);
 }
 
 static void describe(const void *given, char *text, size_t size)
