@@ -47,18 +47,18 @@ bool air_meets_ground(double r, double mu, double *distance);
 // False where the ground is in the way.
 bool air_column_to_space(const AirModel *model, double r, double mu, Column *column);
 
-// e^-x for x >= 0 to 2e-6, in a form that the compiler runs for all bands at once.
+// e^-x for x of 0 to 1e9 to 2e-6, in a form that the compiler runs for all bands at once: a bound
+// on x itself, instead of on the exponent, would be a branch.
 static inline float air_decay(float x)
 {
     float y = x * -1.44269504f;
-    y = y > -120.0f ? y : -120.0f;
-    int whole = (int)y;
+    int whole = (int)y, exponent = whole + 127;
     float f = (y - (float)whole) * 0.69314718f;
     float p = 1.0f + f * (1.0f / 7.0f);
     for (int k = 6; k > 0; k--) {
         p = 1.0f + p * f * (1.0f / (float)k);
     }
-    uint32_t bits = (uint32_t)(whole + 127) << 23;
+    uint32_t bits = (uint32_t)(exponent > 0 ? exponent : 0) << 23;
     float power;
     memcpy(&power, &bits, sizeof power);
     return p * power;

@@ -56,13 +56,28 @@ Vec3 spectrum_band_rgb(int band)
     return vec3((float)sum[0], (float)sum[1], (float)sum[2]);
 }
 
-Vec3 spectrum_to_rgb(const Spectrum *spectrum)
+BandColors spectrum_band_colors(void)
+{
+    BandColors colors;
+    for (int i = 0; i < SPECTRUM_BANDS; i++) {
+        colors.rgb[i] = spectrum_band_rgb(i);
+    }
+    return colors;
+}
+
+Vec3 spectrum_color(const Spectrum *spectrum, const BandColors *colors)
 {
     Vec3 sum = vec3_splat(0.0f);
     for (int i = 0; i < SPECTRUM_BANDS; i++) {
-        sum = vec3_madd(sum, spectrum->v[i], spectrum_band_rgb(i));
+        sum = vec3_madd(sum, spectrum->v[i], colors->rgb[i]);
     }
     return vec3_max(sum, vec3_splat(0.0f));
+}
+
+Vec3 spectrum_to_rgb(const Spectrum *spectrum)
+{
+    BandColors colors = spectrum_band_colors();
+    return spectrum_color(spectrum, &colors);
 }
 
 float atmosphere_clear_length(float turbidity)

@@ -51,7 +51,13 @@ void wavelength_to_rgb(double nm, double rgb[3]);
 // Radiance 1 in a band to linear Rec. 709 times luminance in cd/m^2; some are negative.
 Vec3 spectrum_band_rgb(int band);
 
-// Radiance per band to linear Rec. 709 times luminance in cd/m^2 (irradiance: lux).
+// Radiance per band to linear Rec. 709 times luminance in cd/m^2 (irradiance: lux). For many
+// spectra look up the colours of the bands once: they are integrals.
+typedef struct BandColors {
+    Vec3 rgb[SPECTRUM_BANDS]; // spectrum_band_rgb
+} BandColors;
+BandColors spectrum_band_colors(void);
+Vec3 spectrum_color(const Spectrum *spectrum, const BandColors *colors);
 Vec3 spectrum_to_rgb(const Spectrum *spectrum);
 
 #endif

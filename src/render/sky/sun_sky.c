@@ -38,6 +38,7 @@ static void bake_upper_half(Dome *dome, const Atmosphere *atmosphere, float sine
                             const Run *run)
 {
     Vec3 sun = vec3(0.0f, sine, sqrtf(fmaxf(0.0f, 1.0f - sine * sine)));
+    BandColors colors = spectrum_band_colors();
 #pragma omp parallel for schedule(dynamic) num_threads(run->threads)
     for (int row = 0; row < SKY_ROWS / 2; row++) {
         float elevation = dome_elevation(true, ((float)row + 0.5f) / SKY_ROWS);
@@ -47,7 +48,7 @@ static void bake_upper_half(Dome *dome, const Atmosphere *atmosphere, float sine
             Vec3 direction = vec3(cosf(elevation) * sinf(azimuth), sinf(elevation),
                                   cosf(elevation) * cosf(azimuth));
             Spectrum light = atmosphere_radiance(atmosphere, direction, sun);
-            line[i].radiance = vec3_scale(spectrum_to_rgb(&light), scale);
+            line[i].radiance = vec3_scale(spectrum_color(&light, &colors), scale);
             line[SKY_COLUMNS - 1 - i] = line[i];
         }
     }
