@@ -21,7 +21,7 @@ static const float CELL = 0.4f;     // m: of the grid on which bursts begin
 static const float DENSITY = 5.0f;  // bursts per m^2 and standard deviation of excess
 static const float LOWEST = 0.5f;   // m above the calm surface: crests that tear off water
 static const float LEAST = 0.0018f; // m: radii
-static const float MOST = 0.014f;
+static const float MOST = 0.006f;
 static const float SHUTTER = 0.002f; // s by which drops are drawn out
 
 typedef struct Drop {
