@@ -12,7 +12,8 @@
 typedef struct Atmosphere Atmosphere;
 
 // turbidity: 1 = pure air, 2-3 clear, 6 hazy (Preetham et al. 1999); ground_albedo grey, 0..1;
-// altitude: of the scene's ground above the sea, m. Built in 0.35 s of processor time by run->threads threads.
+// altitude: of the scene's ground above the sea, m. Built in 0.35 s of processor time by
+// run->threads threads.
 Atmosphere *atmosphere_new(float turbidity, float ground_albedo, float altitude, const Run *run,
                            Error *e);
 void atmosphere_free(Atmosphere *atmosphere); // NULL is fine
