@@ -5,13 +5,14 @@
 #include "render/sky/air.h"
 #include "render/sky/sun_sky.h"
 
-static Sky sky_of(float turbidity, float scale)
+static Sky sky_of(float turbidity, float scale, float sun_elevation)
 {
     World *world = world_new(NULL);
     assert_non_null(world);
     Sky sky = world->sky;
     world_free(world);
     sky.turbidity = turbidity;
+    sky.sun_elevation = sun_elevation;
     sky.aerial_perspective = scale;
     return sky;
 }
@@ -60,7 +61,7 @@ static void assert_near(Vec3 a, Vec3 b, float share)
 static void air_without_end_is_the_sky(void **state)
 {
     (void)state;
-    Sky sky = sky_of(2.0f, 1.0f);
+    Sky sky = sky_of(2.0f, 1.0f, 35.0f);
     Air *air = make_air(&sky);
     Run run = run_default();
     Atmosphere *atmosphere = sky_atmosphere(&sky, &run, NULL);
@@ -83,7 +84,7 @@ static void level_air_fades_by_its_length(void **state)
     (void)state;
     for (int i = 0; i < 3; i++) {
         float turbidity = 1.0f + 0.6f * (float)i;
-        Sky sky = sky_of(turbidity, 1.0f);
+        Sky sky = sky_of(turbidity, 1.0f, 40.0f);
         sky.altitude = 0.0f;
         Air *air = make_air(&sky);
         float length = 1000.0f * atmosphere_clear_length(turbidity);
@@ -99,7 +100,7 @@ static void level_air_fades_by_its_length(void **state)
 static void halves_make_a_whole(void **state)
 {
     (void)state;
-    Sky sky = sky_of(1.6f, 1.0f);
+    Sky sky = sky_of(1.6f, 1.0f, 20.0f);
     Air *air = make_air(&sky);
     Vec3 sun = toward(20.0f, 30.0f), direction = toward(4.0f, 80.0f), from = vec3(0, 300, 0);
     Vec3 clear, clear_near, clear_far;
@@ -115,7 +116,7 @@ static void halves_make_a_whole(void **state)
 static void scale_counts_as_distance(void **state)
 {
     (void)state;
-    Sky large = sky_of(1.6f, 1.0f), small = sky_of(1.6f, 10.0f);
+    Sky large = sky_of(1.6f, 1.0f, 20.0f), small = sky_of(1.6f, 10.0f, 20.0f);
     Air *air = make_air(&large), *model = make_air(&small);
     Vec3 sun = toward(20.0f, 30.0f), direction = toward(-3.0f, 80.0f), clear, clear_model;
     Vec3 a = veil(air, vec3(0, 2000, 0), direction, 20e3f, sun, &clear);
@@ -129,7 +130,7 @@ static void scale_counts_as_distance(void **state)
 static void high_air_is_thinner(void **state)
 {
     (void)state;
-    Sky sea = sky_of(2.0f, 1.0f), plateau = sea;
+    Sky sea = sky_of(2.0f, 1.0f, 40.0f), plateau = sea;
     plateau.altitude = 4000.0f;
     Air *air = make_air(&sea), *thin = make_air(&plateau);
     Vec3 sun = toward(40.0f, 0.0f), zero = vec3_splat(0.0f);
@@ -173,7 +174,7 @@ static void shaded_air_is_dark(void **state)
     Vec3 lit = air_before_wall(false, false), shaded = air_before_wall(true, false);
     assert_near(air_before_wall(false, true), vec3_splat(0.0f), 0.0f);
     assert_true(lit.z > 0.05f && lit.z > 1.2f * lit.x); // blue
-    Sky sky = sky_of(1.5f, 1.0f);
+    Sky sky = sky_of(1.5f, 1.0f, 60.0f);
     Air *air = make_air(&sky);
     Vec3 from = vec3(0, 100, 0), direction = vec3(0, 0, -1), sun = toward(60.0f, 0.0f), clear;
     assert_near(lit, veil(air, from, direction, 8000.0f, sun, &clear), 0.02f);

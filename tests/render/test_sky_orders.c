@@ -165,9 +165,9 @@ static void check_radiance(double turbidity, double sun_elevation, double azimut
     static const double OZONE[] = {0.12, 3.90, 2.90}; // 1e-25 m^2
     Run run = run_default();
     Error e = {0};
-    Atmosphere *atmosphere = atmosphere_new((float)turbidity, 0.2f, 50.0f, &run, &e);
-    assert_non_null(atmosphere);
     Point view = direction(elevation, 0.0), sun = direction(sun_elevation, azimuth);
+    Atmosphere *atmosphere = atmosphere_new((float)turbidity, 0.2f, 50.0f, (float)sun.y, &run, &e);
+    assert_non_null(atmosphere);
     Spectrum sky =
         atmosphere_radiance(atmosphere, vec3((float)view.x, (float)view.y, (float)view.z),
                             vec3((float)sun.x, (float)sun.y, (float)sun.z));

@@ -37,11 +37,16 @@ typedef struct Between {
     float share;
 } Between;
 
+static Between within(float x, int low, int high)
+{
+    x = clampf(x, (float)low, (float)high);
+    int first = x < (float)high ? (int)x : high - 1;
+    return (Between){first, x - (float)first};
+}
+
 static Between between(float x, int count)
 {
-    x = clampf(x, 0.0f, (float)(count - 1));
-    int first = x < (float)(count - 1) ? (int)x : count - 2;
-    return (Between){first, x - (float)first};
+    return within(x, 0, count - 1);
 }
 
 static Between height_of(double r)
@@ -50,12 +55,25 @@ static Between height_of(double r)
     return between(s * (float)(GLOW_HEIGHTS - 1), GLOW_HEIGHTS);
 }
 
-static Between sun_of(double mu_sun)
+// The inverse of air_glow_sun.
+static float sun_index(float mu_sun)
 {
-    float m = (float)mu_sun;
-    float s = m < 0.0f ? SUNKEN_PART * (1.0f - sqrtf(-m / (float)SUNKEN))
-                       : SUNKEN_PART + (1.0f - SUNKEN_PART) * sqrtf(m);
-    return between(s * (float)(GLOW_SUNS - 1), GLOW_SUNS);
+    float s = mu_sun < 0.0f ? SUNKEN_PART * (1.0f - sqrtf(-mu_sun / (float)SUNKEN))
+                            : SUNKEN_PART + (1.0f - SUNKEN_PART) * sqrtf(mu_sun);
+    return clampf(s * (float)(GLOW_SUNS - 1), 0.0f, (float)(GLOW_SUNS - 1));
+}
+
+void air_glow_set_suns(AirGlow *glow, double sine)
+{
+    // 12 degrees: a level ray is 8 degrees long up to 60 km; light of further orders comes from
+    // nearer.
+    const double along = 0.97814760, across = 0.20791169; // cosine and sine
+    double cosine = sqrt(fmax(0.0, 1.0 - sine * sine));
+    double lowest = sine < -along ? -1.0 : sine * along - cosine * across;
+    double highest = sine > along ? 1.0 : sine * along + cosine * across;
+    float low = sun_index((float)lowest), high = sun_index((float)highest);
+    glow->first_sun = (int)fminf(floorf(low), (float)(GLOW_SUNS - 2));
+    glow->last_sun = (int)fmaxf(ceilf(high), (float)(glow->first_sun + 1));
 }
 
 static Between tilt_of(double mu)
@@ -66,7 +84,8 @@ static Between tilt_of(double mu)
 
 GlowPair air_glow_at(const AirGlow *glow, double r, double mu_sun, double mu, float turn)
 {
-    Between h = height_of(r), s = sun_of(mu_sun), m = tilt_of(mu);
+    Between h = height_of(r), m = tilt_of(mu);
+    Between s = within(sun_index((float)mu_sun), glow->first_sun, glow->last_sun);
     Between t = between(turn / PI_F * GLOW_TURNS - 0.5f, GLOW_TURNS);
     GlowPair sum = {{{0.0f}}, {{0.0f}}};
     for (int corner = 0; corner < 16; corner++) {

@@ -17,6 +17,7 @@ typedef struct GlowPair {
 } GlowPair;
 
 typedef struct AirGlow {
+    int first_sun, last_sun; // the only ones whose entries are known, first_sun < last_sun
     GlowPair at[GLOW_HEIGHTS][GLOW_SUNS][GLOW_TILTS][GLOW_TURNS];
 } AirGlow;
 
@@ -27,7 +28,11 @@ double air_glow_sun(int sun);
 double air_tilt(int tilt, int tilts); // of so many: denser near the horizon
 double air_turn(int turn, int turns);
 
-// turn: radians, 0 .. pi.
+// Sets which suns' entries are needed where the sun's sine of elevation is this near the ground:
+// along a ray through the atmosphere it changes by no more than a few degrees.
+void air_glow_set_suns(AirGlow *glow, double sine);
+
+// turn: radians, 0 .. pi. Beyond the first and last sun these two stand for others.
 GlowPair air_glow_at(const AirGlow *glow, double r, double mu_sun, double mu, float turn);
 
 #endif

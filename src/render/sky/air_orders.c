@@ -9,7 +9,6 @@
 // the sun, and those of the table for smoother light.
 enum { FINE_TILTS = 20, FINE_TURNS = 10, FINE = FINE_TILTS * FINE_TURNS };
 enum { COARSE = GLOW_TILTS * GLOW_TURNS };
-enum { POINTS = GLOW_HEIGHTS * GLOW_SUNS };
 
 typedef struct Directions {
     int tilts, turns;
@@ -29,6 +28,7 @@ typedef struct Ground {
 typedef struct Orders {
     const AirModel *model;
     Kernel *kernel;
+    int first_sun, last_sun;
     Ground ground, next; // light on it of the last order, and of the one that is being found
 } Orders;
 
@@ -93,8 +93,8 @@ static Spectrum ground_light(const Orders *o, bool of_sun, double mu_sun)
         }
         return light;
     }
-    int k = 0;
-    while (k < GLOW_SUNS - 2 && air_glow_sun(k + 1) < mu_sun) {
+    int k = o->first_sun;
+    while (k < o->last_sun - 1 && air_glow_sun(k + 1) < mu_sun) {
         k++;
     }
     double low = air_glow_sun(k), high = air_glow_sun(k + 1);
@@ -128,10 +128,10 @@ static Spectrum radiance_from(const Orders *o, const AirGlow *before, double r, 
 }
 
 // The table's entries of one point: the light around it, weighted.
-static void fill_point(const Orders *o, const AirGlow *before, Directions d, int point,
+static void fill_point(const Orders *o, const AirGlow *before, Directions d, int height, int sun,
                        AirGlow *glow, Spectrum *irradiance)
 {
-    int height = point / GLOW_SUNS, sun = point % GLOW_SUNS, count = count_of(d);
+    int count = count_of(d);
     double r = air_glow_radius(height), mu_sun = air_glow_sun(sun);
     Spectrum light[FINE];
     *irradiance = (Spectrum){{0.0f}};
@@ -159,13 +159,17 @@ static void fill_point(const Orders *o, const AirGlow *before, Directions d, int
 // One more scattering of all light.
 static void scatter(Orders *o, const AirGlow *before, Directions d, AirGlow *glow, const Run *run)
 {
+    int suns = o->last_sun - o->first_sun + 1;
     fill_kernel(o->kernel, d, run);
+    glow->first_sun = o->first_sun;
+    glow->last_sun = o->last_sun;
 #pragma omp parallel for schedule(dynamic) num_threads(run->threads)
-    for (int point = 0; point < POINTS; point++) {
+    for (int point = 0; point < GLOW_HEIGHTS * suns; point++) {
+        int height = point / suns, sun = o->first_sun + point % suns;
         Spectrum irradiance;
-        fill_point(o, before, d, point, glow, &irradiance);
-        if (point < GLOW_SUNS) { // on the ground
-            o->next.irradiance[point] = irradiance;
+        fill_point(o, before, d, height, sun, glow, &irradiance);
+        if (height == 0) { // on the ground
+            o->next.irradiance[sun] = irradiance;
         }
     }
     o->ground = o->next;
@@ -184,19 +188,24 @@ static void add_order(Spectrum *sum, const Spectrum *last, const Spectrum *befor
 
 static void add_orders(AirGlow *sum, const AirGlow *last, const AirGlow *before, bool with_rest)
 {
-    GlowPair *to = &sum->at[0][0][0][0];
-    const GlowPair *one = &last->at[0][0][0][0], *other = &before->at[0][0][0][0];
-    for (int i = 0; i < POINTS * COARSE; i++) {
-        add_order(&to[i].air, &one[i].air, &other[i].air, with_rest);
-        add_order(&to[i].dust, &one[i].dust, &other[i].dust, with_rest);
+    int suns = sum->last_sun - sum->first_sun + 1;
+    for (int point = 0; point < GLOW_HEIGHTS * suns; point++) {
+        int height = point / suns, sun = sum->first_sun + point % suns;
+        GlowPair *to = &sum->at[height][sun][0][0];
+        const GlowPair *one = &last->at[height][sun][0][0], *other = &before->at[height][sun][0][0];
+        for (int i = 0; i < COARSE; i++) {
+            add_order(&to[i].air, &one[i].air, &other[i].air, with_rest);
+            add_order(&to[i].dust, &one[i].dust, &other[i].dust, with_rest);
+        }
     }
 }
 
-bool air_orders_fill(AirGlow *glow, const AirModel *model, const Run *run, Error *e)
+bool air_orders_fill(AirGlow *glow, const AirModel *model, double sine, const Run *run, Error *e)
 {
     enum { ORDERS = 5 }; // one by one
     const Directions fine = {FINE_TILTS, FINE_TURNS}, coarse = {GLOW_TILTS, GLOW_TURNS};
-    Orders o = {.model = model};
+    air_glow_set_suns(glow, sine);
+    Orders o = {.model = model, .first_sun = glow->first_sun, .last_sun = glow->last_sun};
     AirGlow *before = memory_alloc(1, sizeof *before, e);
     AirGlow *last = before ? memory_alloc(1, sizeof *last, e) : NULL;
     o.kernel = last ? memory_alloc(1, sizeof *o.kernel, e) : NULL;

@@ -9,6 +9,7 @@
 // Light scattered once and twice is found with the true phase functions in every direction, as
 // Bruneton and Neyret 2008 do order by order; all further orders by a geometric series, for each
 // is to the one before as that is to its own. By run->threads threads. False: out of memory.
-bool air_orders_fill(AirGlow *glow, const AirModel *model, const Run *run, Error *e);
+// sine: of the sun's elevation near the ground; see air_glow_set_suns.
+bool air_orders_fill(AirGlow *glow, const AirModel *model, double sine, const Run *run, Error *e);
 
 #endif

@@ -85,8 +85,8 @@ float atmosphere_clear_length(float turbidity)
     return 1.0f / (air_rayleigh_extinction(0.55f) + air_mie_extinction(turbidity, 0.55f));
 }
 
-Atmosphere *atmosphere_new(float turbidity, float ground_albedo, float altitude, const Run *run,
-                           Error *e)
+Atmosphere *atmosphere_new(float turbidity, float ground_albedo, float altitude, float sine,
+                           const Run *run, Error *e)
 {
     Atmosphere *a = memory_alloc_zero(1, sizeof *a, e);
     if (!a) {
@@ -94,7 +94,7 @@ Atmosphere *atmosphere_new(float turbidity, float ground_albedo, float altitude,
     }
     a->eye = GROUND_RADIUS + (double)altitude / 1000.0;
     air_model_init(&a->model, turbidity, ground_albedo);
-    if (!air_orders_fill(&a->glow, &a->model, run, e)) {
+    if (!air_orders_fill(&a->glow, &a->model, (double)sine, run, e)) {
         free(a);
         return NULL;
     }

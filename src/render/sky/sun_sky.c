@@ -85,7 +85,8 @@ static void bake_lower_half(Dome *dome, Vec3 ground)
 
 Atmosphere *sky_atmosphere(const Sky *sky, const Run *run, Error *e)
 {
-    return atmosphere_new(sky->turbidity, sky->ground_albedo, sky->altitude, run, e);
+    return atmosphere_new(sky->turbidity, sky->ground_albedo, sky->altitude, sun_direction(sky).y,
+                          run, e);
 }
 
 Dome *sky_dome(const Sky *sky, const Atmosphere *atmosphere, Sun *sun, const Run *run, Error *e)
