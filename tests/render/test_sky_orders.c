@@ -1,4 +1,5 @@
 // The sky's radiance against paths that are scattered at random through the same air.
+#include "render/sky/air_glow.h"
 #include "render/sky/atmosphere.h"
 #include "testing.h"
 
@@ -201,9 +202,34 @@ static void all_orders_are_those_of_random_paths(void **unused)
     check_radiance(4.0, 5.0, 90.0, 20.0);
 }
 
+// Along any ray from the ground up to 60 km the sun stands between two that are known; the known
+// ones are few.
+static void suns_along_rays_are_known(void **unused)
+{
+    (void)unused;
+    static AirGlow glow;
+    for (double elevation = -12.0; elevation <= 90.0; elevation += 3.0) {
+        double sine = sin(elevation * M_PI / 180.0), cosine = cos(elevation * M_PI / 180.0);
+        air_glow_set_suns(&glow, sine);
+        assert_in_range(glow.first_sun, 0, glow.last_sun - 1);
+        assert_in_range(glow.last_sun - glow.first_sun, 1, 12);
+        for (int i = 0; i < 181; i++) { // toward the sun, over the zenith and away
+            double tilt = M_PI * i / 180.0;
+            double reach = 60.0 / fmax(sin(tilt), 0.06);
+            double toward = cos(tilt) * cosine + sin(tilt) * sine;
+            double radius = sqrt(EYE * EYE + reach * reach + 2.0 * EYE * sin(tilt) * reach);
+            double there = (EYE * sine + reach * toward) / radius;
+            double first = air_glow_sun(glow.first_sun), last = air_glow_sun(glow.last_sun);
+            assert_true(there >= first - 1e-9 || glow.first_sun == 0);
+            assert_true(there <= last + 1e-9);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(suns_along_rays_are_known),
         cmocka_unit_test(all_orders_are_those_of_random_paths),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
