@@ -168,12 +168,41 @@ typedef struct Seen {
     double most;                   // m: the highest water over the land at the water's outline
 } Seen;
 
-// Is an edge of a quad that of another face too?
-static bool is_shared(const Mesh *mesh, uint32_t a, uint32_t b, const int32_t *first,
-                      const int32_t *next)
+// The corners of quads at each vertex, in lists: -1 ends them.
+typedef struct Corners {
+    const Mesh *mesh;
+    int64_t count;
+    int32_t *first, *next; // by vertex and by corner; owned
+} Corners;
+
+static Corners corners_of(const Mesh *mesh)
 {
+    Corners at = {.mesh = mesh, .count = 4 * mesh->face_count};
+    at.first = malloc(sizeof *at.first * (size_t)mesh->vertex_count);
+    at.next = malloc(sizeof *at.next * (size_t)at.count);
+    assert_true(at.first && at.next);
+    memset(at.first, 0xff, sizeof *at.first * (size_t)mesh->vertex_count);
+    for (int64_t c = 0; c < at.count; c++) {
+        at.next[c] = at.first[mesh->index[c]];
+        at.first[mesh->index[c]] = (int32_t)c;
+    }
+    return at;
+}
+
+static void free_corners(Corners *at)
+{
+    free(at->next);
+    free(at->first);
+}
+
+// The ends of the edge that begins at a corner. Is it another quad's too?
+static bool is_shared(const Corners *at, int64_t corner_at, uint32_t ends[2])
+{
+    const Mesh *mesh = at->mesh;
+    uint32_t a = ends[0] = mesh->index[corner_at];
+    uint32_t b = ends[1] = mesh->index[corner_at % 4 == 3 ? corner_at - 3 : corner_at + 1];
     int uses = 0;
-    for (int32_t c = first[a]; c >= 0; c = next[c]) {
+    for (int32_t c = at->first[a]; c >= 0; c = at->next[c]) {
         uint32_t face = (uint32_t)c / 4, k = (uint32_t)c % 4;
         const uint32_t *corner = mesh->index + 4 * face;
         uses += corner[(k + 1) % 4] == b || corner[(k + 3) % 4] == b;
@@ -194,20 +223,14 @@ static bool is_beside(const Made *m, Vec3 p)
 static void look_at(const Made *m, const Mesh *mesh, Seen *seen)
 {
     enum { PLACES = 8 };
-    int64_t corners = 4 * mesh->face_count;
-    int32_t *first = malloc(sizeof *first * (size_t)mesh->vertex_count);
-    int32_t *next = malloc(sizeof *next * (size_t)corners);
-    memset(first, 0xff, sizeof *first * (size_t)mesh->vertex_count);
-    for (int64_t c = 0; c < corners; c++) {
-        next[c] = first[mesh->index[c]];
-        first[mesh->index[c]] = (int32_t)c;
-    }
-    for (int64_t c = 0; c < corners; c++) {
-        uint32_t a = mesh->index[c], b = mesh->index[c % 4 == 3 ? c - 3 : c + 1];
-        bool outline = !is_shared(mesh, a, b, first, next) && is_beside(m, mesh->position[a]) &&
-                       is_beside(m, mesh->position[b]);
+    Corners corners = corners_of(mesh);
+    for (int64_t c = 0; c < corners.count; c++) {
+        uint32_t ends[2];
+        bool shared = is_shared(&corners, c, ends);
+        Vec3 a = mesh->position[ends[0]], b = mesh->position[ends[1]];
+        bool outline = !shared && is_beside(m, a) && is_beside(m, b);
         for (int k = 0; k <= PLACES; k++) {
-            Vec3 p = vec3_lerp(mesh->position[a], mesh->position[b], (float)k / PLACES);
+            Vec3 p = vec3_lerp(a, b, (float)k / PLACES);
             float over = p.y - land_below(m, p);
             Vec2 at = in_square(m, p);
             seen->places++;
@@ -223,8 +246,7 @@ static void look_at(const Made *m, const Mesh *mesh, Seen *seen)
             }
         }
     }
-    free(next);
-    free(first);
+    free_corners(&corners);
 }
 
 // Lakes end on the drawn land, and what lies deep in the world's lakes lies under the drawn water.
@@ -479,22 +501,14 @@ static void look_at_edge(const Made *m, Vec3 a, Vec3 b, Shores *s)
 
 static void look_at_shores(const Made *m, const Mesh *water, Shores *s)
 {
-    int64_t corners = 4 * water->face_count;
-    int32_t *first = malloc(sizeof *first * (size_t)water->vertex_count);
-    int32_t *next = malloc(sizeof *next * (size_t)corners);
-    memset(first, 0xff, sizeof *first * (size_t)water->vertex_count);
-    for (int64_t c = 0; c < corners; c++) {
-        next[c] = first[water->index[c]];
-        first[water->index[c]] = (int32_t)c;
-    }
-    for (int64_t c = 0; c < corners; c++) {
-        uint32_t a = water->index[c], b = water->index[c % 4 == 3 ? c - 3 : c + 1];
-        if (!is_shared(water, a, b, first, next)) {
-            look_at_edge(m, water->position[a], water->position[b], s);
+    Corners corners = corners_of(water);
+    for (int64_t c = 0; c < corners.count; c++) {
+        uint32_t ends[2];
+        if (!is_shared(&corners, c, ends)) {
+            look_at_edge(m, water->position[ends[0]], water->position[ends[1]], s);
         }
     }
-    free(next);
-    free(first);
+    free_corners(&corners);
 }
 
 // The broad water's outline lies on the drawn ground or under it, and where the land's samples are

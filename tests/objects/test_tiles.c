@@ -237,6 +237,20 @@ static double plan_area(const Mesh *mesh, int64_t face)
     return (double)(b.z - a.z) * (double)(c.x - a.x) - (double)(b.x - a.x) * (double)(c.z - a.z);
 }
 
+// Welds the mesh: it is a disc whose rim has so many edges.
+static void assert_is_disc(Mesh *mesh, int64_t rim)
+{
+    MeshTopology topology;
+    weld(mesh);
+    assert_true(mesh_topology(mesh, &topology, NULL));
+    assert_int_equal(topology.open_edges, rim);
+    assert_int_equal(topology.overused_edges, 0);
+    assert_int_equal(topology.misoriented_edges, 0);
+    assert_int_equal(topology.degenerate_faces, 0);
+    assert_int_equal(topology.component_count, 1);
+    assert_int_equal(topology.euler_number, 1);
+}
+
 // Welded by the bits of positions, tiles of many sizes are one sheet without holes, open at the rim
 // alone; every face is seen from above and all together cover the square once. So they do on the
 // Earth's curve, with a periodic world, and with no eye.
@@ -267,15 +281,7 @@ static void tiles_meet_without_cracks(void **state)
             area += 0.5 * own;
         }
         assert_true(fabs(area / (3072.0 * 3072.0) - 1.0) < 1e-9);
-        weld(mesh);
-        MeshTopology topology;
-        assert_true(mesh_topology(mesh, &topology, NULL));
-        assert_int_equal(topology.open_edges, rim);
-        assert_int_equal(topology.overused_edges, 0);
-        assert_int_equal(topology.misoriented_edges, 0);
-        assert_int_equal(topology.degenerate_faces, 0);
-        assert_int_equal(topology.component_count, 1);
-        assert_int_equal(topology.euler_number, 1); // a disc
+        assert_is_disc(mesh, rim);
         mesh_free(mesh);
         height_field_free(world);
     }
@@ -314,14 +320,7 @@ static void a_seam_has_the_worlds_samples(void **state)
         }
     }
     assert_true(found >= rim);
-    weld(mesh);
-    MeshTopology topology;
-    assert_true(mesh_topology(mesh, &topology, NULL));
-    assert_int_equal(topology.open_edges, rim);
-    assert_int_equal(topology.overused_edges, 0);
-    assert_int_equal(topology.misoriented_edges, 0);
-    assert_int_equal(topology.component_count, 1);
-    assert_int_equal(topology.euler_number, 1);
+    assert_is_disc(mesh, rim);
     mesh_free(mesh);
     height_field_free(world);
 }

@@ -150,12 +150,55 @@ static void lace_does_not_drift(void **state)
     assert_true(alike[0] < 0.85 * alike[1]);
 }
 
+static double mean_steepness(float cover, float width)
+{
+    enum { PLACES = 4000 };
+    double sum = 0.0;
+    for (uint64_t i = 0; i < PLACES; i++) {
+        Vec2 at = random_place(i), slope = foam_slope(cover, lace(cover, at, width), at, width);
+        sum += sqrt((double)(slope.x * slope.x + slope.y * slope.y));
+        assert_true(fabsf(slope.x) <= 1.2f && fabsf(slope.y) <= 1.2f);
+    }
+    return sum / PLACES;
+}
+
+// Foam is lumpy from near, the more of it there is; smooth from afar; and where there is none,
+// nothing rises.
+static void foam_has_relief(void **state)
+{
+    (void)state;
+    double dense = mean_steepness(0.9f, 0.005f), thin = mean_steepness(0.1f, 0.005f);
+    printf("    steepness of dense foam %.3f, of thin foam %.3f\n", dense, thin);
+    assert_true(dense > 2.0 * thin && thin > 0.01 && dense > 0.2);
+    assert_true(mean_steepness(0.9f, 4.0f) < 0.02 * dense);
+    assert_true(mean_steepness(0.0f, 0.005f) == 0.0);
+}
+
+// Beside a strand the foam falls toward open water: slopes are those of its thickness, 5 cm times
+// its share, where no lumps are seen.
+static void relief_is_that_of_the_share(void **state)
+{
+    (void)state;
+    const float width = 0.4f, step = 0.4f; // m: no lump is as wide
+    int steep = 0;
+    for (uint64_t i = 0; i < 2000; i++) {
+        Vec2 at = random_place(i), slope = foam_slope(0.5f, lace(0.5f, at, width), at, width);
+        float x = lace(0.5f, (Vec2){at.x + step, at.y}, width) - lace(0.5f, at, width);
+        float y = lace(0.5f, (Vec2){at.x, at.y + step}, width) - lace(0.5f, at, width);
+        assert_float_equal(slope.x, 0.05f * x / step, 1e-6f);
+        assert_float_equal(slope.y, 0.05f * y / step, 1e-6f);
+        steep += fabsf(slope.x) > 0.01f;
+    }
+    assert_true(steep > 100);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mean_is_the_cover), cmocka_unit_test(grows_with_the_cover_without_steps),
         cmocka_unit_test(edges_are_soft),    cmocka_unit_test(wide_pixels_show_the_mean),
         cmocka_unit_test(eddies_keep_areas), cmocka_unit_test(lace_does_not_drift),
+        cmocka_unit_test(foam_has_relief),   cmocka_unit_test(relief_is_that_of_the_share),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

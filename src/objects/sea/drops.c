@@ -13,15 +13,15 @@
 #include <stdlib.h>
 
 enum { STREAM_DROPS = 78 };
-enum { DROP_VERTICES = 6, DROP_FACES = 8, MOST_DROPS = 4000000 };
+enum { DROP_VERTICES = 6, DROP_FACES = 8 };
 enum { NUMBER_BURSTS, NUMBER_PLACE_X, NUMBER_PLACE_Z, NUMBERS };
 
-static const float REACH = 60.0f;   // m about the centre
-static const float CELL = 0.4f;     // m: of the grid on which bursts begin
-static const float DENSITY = 5.0f;  // bursts per m^2 and standard deviation of excess
-static const float LOWEST = 0.5f;   // m above the calm surface: crests that tear off water
-static const float LEAST = 0.0018f; // m: radii
-static const float MOST = 0.006f;
+static const float REACH = 60.0f;    // m about the centre
+static const float CELL = 0.4f;      // m: of the grid on which bursts begin
+static const float DENSITY = 5.0f;   // bursts per m^2 and standard deviation of excess
+static const float LOWEST = 0.5f;    // m above the calm surface: crests that tear off water
+static const float LEAST = 0.0018f;  // m: radii
+static const float MOST = 0.006f;    // larger ones near the camera would be seen as what they are
 static const float SHUTTER = 0.002f; // s by which drops are drawn out
 
 typedef struct Drop {
@@ -76,7 +76,7 @@ static bool fly(const Drops *d, const Burst *burst, int number, Drop *drop)
 
 static bool add_burst(Drops *d, const Burst *burst, Error *e)
 {
-    for (int i = 0; i < burst->drops && d->count < MOST_DROPS; i++) {
+    for (int i = 0; i < burst->drops; i++) {
         Drop drop;
         if (!fly(d, burst, i, &drop)) {
             continue;

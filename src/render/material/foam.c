@@ -111,3 +111,33 @@ Vec2 foam_stirred(Vec2 at, float spacing, float turns, uint32_t seed)
     float s = sinf(turned), c = cosf(turned) - 1.0f;
     return (Vec2){at.x + spacing * (c * x - s * y), at.y + spacing * (s * x + c * y)};
 }
+
+static Vec2 lumps_slope(Vec2 at, float width)
+{
+    static const float size[] = {0.31f, 0.13f, 0.055f, 0.023f}; // m
+    const float steep = 0.34f;                                  // of each size
+    Vec2 slope = {0.0f, 0.0f};
+    for (uint32_t i = 0; i < sizeof size / sizeof size[0]; i++) {
+        float seen = pattern_detail(size[i], width);
+        if (seen <= 0.0f) {
+            break;
+        }
+        Vec3 gradient;
+        (void)noise_solid(vec3(at.x / size[i], 0.3f, at.y / size[i]), 861 + i, &gradient);
+        slope.x += seen * steep * gradient.x;
+        slope.y += seen * steep * gradient.z;
+    }
+    return slope;
+}
+
+Vec2 foam_slope(float cover, float share, Vec2 at, float width)
+{
+    const float thick = 0.05f, steepest = 1.2f; // m; slope
+    float step = fmaxf(width, 0.012f);
+    Vec2 along = {at.x + step, at.y}, aside = {at.x, at.y + step};
+    float x = foam_share(cover, (FoamPlace){along, along}, width) - share;
+    float y = foam_share(cover, (FoamPlace){aside, aside}, width) - share;
+    Vec2 lumps = lumps_slope(at, width);
+    return (Vec2){clampf(thick * x / step + share * lumps.x, -steepest, steepest),
+                  clampf(thick * y / step + share * lumps.y, -steepest, steepest)};
+}

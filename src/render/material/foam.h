@@ -19,6 +19,11 @@ typedef struct FoamPlace {
 // the cover; a wider pixel shows less of the lace. Holes are longer along x.
 float foam_share(float cover, FoamPlace at, float width);
 
+// Slopes along x and y of the top of foam that lies on the water as thick as it is dense, in lumps
+// of bubbles from decimetres to centimetres. share: foam_share there; at: both of FoamPlace. None
+// that a pixel of this width does not show.
+Vec2 foam_slope(float cover, float share, Vec2 at, float width);
+
 // Where the water at a place, m, was before eddies of this spacing, m, turned it: parts of circles
 // that do not overlap, each turned by up to `turns` radians about its middle, none at its rim.
 // Lookups moved so curl into spirals. Areas are kept, so that means are.

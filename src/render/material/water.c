@@ -11,8 +11,6 @@
 #include "render/material/foam.h"
 #include "render/material/maps.h"
 #include "render/material/material_ops.h"
-#include "render/material/pattern.h"
-#include "render/material/pattern_noise.h"
 #include "render/warp.h"
 
 #include <math.h>
@@ -32,40 +30,11 @@ static void whiten(Bsdf *b, float cover, float foam, Vec3 plume)
                                1.0f / b->foam);
 }
 
-// The slopes along x and y of the lumps of bubbles in dense foam, from decimetres to centimetres.
-static Vec2 lumps_slope(Vec2 at, float footprint)
+// normal: of the water; slope: of the foam on it, along `way`, unit in plan, and across.
+static Vec3 foam_normal(Vec3 normal, Vec2 way, Vec2 slope)
 {
-    static const float size[] = {0.31f, 0.13f, 0.055f, 0.023f};
-    const float steep = 0.34f; // of each size
-    Vec2 slope = {0.0f, 0.0f};
-    for (uint32_t i = 0; i < sizeof size / sizeof size[0]; i++) {
-        float seen = pattern_detail(size[i], footprint);
-        if (seen <= 0.0f) {
-            break;
-        }
-        Vec3 gradient;
-        (void)noise_solid(vec3(at.x / size[i], 0.3f, at.y / size[i]), 861 + i, &gradient);
-        slope.x += seen * steep * gradient.x;
-        slope.y += seen * steep * gradient.z;
-    }
-    return slope;
-}
-
-// The normal of foam that lies on the water as thick as it is dense. at: where its share is looked
-// up, across and along `way`, unit in plan; step: m.
-static Vec3 foam_relief(Vec3 normal, Vec2 way, float cover, Vec2 at, float footprint)
-{
-    const float thick = 0.05f, steepest = 1.2f; // m; slope
-    float step = fmaxf(footprint, 0.012f);
-    Vec2 along = {at.x + step, at.y}, aside = {at.x, at.y + step};
-    float here = foam_share(cover, (FoamPlace){at, at}, footprint);
-    float x = foam_share(cover, (FoamPlace){along, along}, footprint) - here;
-    float y = foam_share(cover, (FoamPlace){aside, aside}, footprint) - here;
-    Vec2 lumps = lumps_slope(at, footprint);
-    x = clampf(thick * x / step + here * lumps.x, -steepest, steepest);
-    y = clampf(thick * y / step + here * lumps.y, -steepest, steepest);
-    Vec3 to = vec3(way.x, 0.0f, way.y), across = vec3(-way.y, 0.0f, way.x);
-    return vec3_normalize(vec3_madd(vec3_madd(normal, -x, to), -y, across));
+    Vec3 along = vec3(way.x, 0.0f, way.y), across = vec3(-way.y, 0.0f, way.x);
+    return vec3_normalize(vec3_madd(vec3_madd(normal, -slope.x, along), -slope.y, across));
 }
 
 static void whiten_sea(Bsdf *b, const WavePoint *wave, const Waves *waves,
@@ -76,10 +45,11 @@ static void whiten_sea(Bsdf *b, const WavePoint *wave, const Waves *waves,
     if (cover > 0.0f) {
         Vec2 at = {point->uv.x * waves->way.x + point->uv.y * waves->way.y,
                    point->uv.y * waves->way.x - point->uv.x * waves->way.y};
-        whiten(b, cover, foam_share(cover, (FoamPlace){at, at}, point->footprint), plume);
+        float share = foam_share(cover, (FoamPlace){at, at}, point->footprint);
+        whiten(b, cover, share, plume);
         Vec3 up = point->backface ? vec3_neg(b->normal) : b->normal;
-        b->foam_normal = foam_relief(up, waves->way, cover, at, point->footprint);
-        b->foam_normal = point->backface ? vec3_neg(b->foam_normal) : b->foam_normal;
+        up = foam_normal(up, waves->way, foam_slope(cover, share, at, point->footprint));
+        b->foam_normal = point->backface ? vec3_neg(up) : up;
         b->foam_through = FOAM_THROUGH;
     }
 }

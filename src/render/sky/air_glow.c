@@ -1,8 +1,8 @@
 #include "render/sky/air_glow.h"
 
 #define HIGHEST 60.0 // km: above it is hardly any air
-#define SUNKEN \
-    0.25 // sine of the lowest depression of the sun that is told apart: hardly anything glows
+// Sine of the lowest depression of the sun that is told apart: lower, hardly anything glows.
+#define SUNKEN 0.25
 #define SUNKEN_PART 0.25f // of the entries, for the sun below the horizon
 
 double air_glow_radius(int height)
