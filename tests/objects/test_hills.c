@@ -52,12 +52,12 @@ static void valleys_are_as_far_apart_as_asked(void **state)
 {
     (void)state;
     static const float spacing[] = {200.0f, 350.0f};
-    for (int k = 0; k < 4; k++) {
-        Made made = make(spacing[k % 2], 256, (uint64_t)(3 + k / 2), 0);
+    for (int k = 0; k < 2; k++) {
+        Made made = make(spacing[k], 256, (uint64_t)(3 + k), 0);
         double is = value(&made, "valley_spacing");
-        printf("  asked %g, is %g m\n", (double)spacing[k % 2], is);
-        if (fabs(is - (double)spacing[k % 2]) > 0.3 * (double)spacing[k % 2]) {
-            fail_msg("valleys are %g m apart, not %g", is, (double)spacing[k % 2]);
+        printf("  asked %g, is %g m\n", (double)spacing[k], is);
+        if (fabs(is - (double)spacing[k]) > 0.3 * (double)spacing[k]) {
+            fail_msg("valleys are %g m apart, not %g", is, (double)spacing[k]);
         }
         clear(&made);
     }
@@ -182,8 +182,8 @@ static double mean_height(const HeightField *field)
 static void rills_cut_the_slopes(void **state)
 {
     (void)state;
-    Made smooth = make_rilled(300.0f, 512, 9, 1, 0.0f), cut = make_rilled(300.0f, 512, 9, 3, 1.0f);
-    Made again = make_rilled(300.0f, 512, 9, 1, 1.0f);
+    Made smooth = make_rilled(300.0f, 384, 9, 1, 0.0f), cut = make_rilled(300.0f, 384, 9, 3, 1.0f);
+    Made again = make_rilled(300.0f, 384, 9, 1, 1.0f);
     double before = roughness(smooth.field), after = roughness(cut.field);
     double lower = mean_height(smooth.field) - mean_height(cut.field);
     printf("  roughness %g and %g m, mean %g m lower\n", before, after, lower);

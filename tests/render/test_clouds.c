@@ -275,7 +275,7 @@ static void no_cell_is_thinner_or_denser_than_its_bounds(void **state)
         assert_true(cloud_grid_new(&grid, &cloud, detail, 6, &run, &e));
         int met = 0;
         double sum = 0.0, least = 0.0, most = 0.0;
-        for (uint64_t k = 0; k < 150000; k++) {
+        for (uint64_t k = 0; k < 50000; k++) {
             Vec3 u = vec3(random_unit(random_key(k, 0)), random_unit(random_key(k, 1)),
                           random_unit(random_key(k, 2)));
             Vec3 p = vec3_add(
@@ -290,7 +290,7 @@ static void no_cell_is_thinner_or_denser_than_its_bounds(void **state)
             least += bounds_around(&grid, p).least / (double)CELL_STEPS;
             most += bounds_around(&grid, p).most / (double)CELL_STEPS;
         }
-        assert_true(met > 1500);
+        assert_true(met > 500);
         assert_in_bounds(most / sum, 1.0, 3.0 + 0.5 * (double)cloud.softness); // wisps vary more
         assert_in_bounds(least / sum, 0.2 - 0.1 * (double)cloud.softness, 1.0);
         cloud_grid_clear(&grid);
