@@ -1,5 +1,6 @@
 // A path at a surface: what the surface adds to it, and the ray that leaves it.
 #include "render/first_seen.h"
+#include "render/material/bsdf_ggx.h"
 #include "render/path.h"
 
 #include <stddef.h>
@@ -59,11 +60,48 @@ static void note_guides(const Path *path, const Bsdf *bsdf)
     result->normal = vec3_madd(path->veil_normal, mirrors ? 0.0f : path->clear, bsdf->normal);
 }
 
+// Still open water: chance decides whether the path is mirrored, so what is mirrored is looked up
+// by a ray of its own, and counts by its share. Where that is the sky, the water's own guides stay.
+static void note_mirrored_by_water(const Path *path, const Vertex *vertex)
+{
+    const float still = 0.01f, rough = 0.05f; // alpha
+    const Tracer *tracer = path->tracer;
+    const Bsdf *bsdf = &vertex->bsdf;
+    float sharp = bsdf->delta ? 1.0f : smoothstepf(rough, still, bsdf->alpha);
+    float cosine = vec3_dot(bsdf->normal, vertex->wo);
+    Vec3 direction = vec3_sub(vec3_scale(bsdf->normal, 2.0f * cosine), vertex->wo);
+    float side = vec3_dot(direction, bsdf->geometric_normal);
+    if (vertex->point.backface || sharp <= 0.0f || bsdf->foam >= 1.0f) {
+        return;
+    }
+    direction =
+        side < 0.0f ? vec3_madd(direction, -2.0f * side, bsdf->geometric_normal) : direction;
+    Ray ray = ray_leaving(&vertex->point, direction, path->key);
+    Hit hit;
+    if (!accel_intersect(tracer->accel, &ray, &hit) || accel_light(tracer->accel, &hit) >= 0) {
+        return;
+    }
+    SurfacePoint point;
+    accel_surface(tracer->accel, &ray, &hit, &point);
+    point.footprint = vertex->point.footprint + path->spread * hit.t;
+    Bsdf met = bsdf_at(tracer->materials, &point, vec3_neg(direction));
+    PathResult *result = path->result;
+    float share =
+        sharp * path->clear * (1.0f - bsdf->foam) * fresnel_dielectric(cosine, bsdf->eta, NULL);
+    Vec3 albedo = bsdf_is_emissive(&met) ? vec3_splat(1.0f) : met.albedo;
+    result->albedo = vec3_lerp(result->albedo, albedo, share);
+    result->normal = vec3_lerp(result->normal, met.normal, share);
+}
+
 // The AOVs of the first surface.
-static void note_first_hit(const Path *path, const SurfacePoint *point, const Bsdf *bsdf)
+static void note_first_hit(const Path *path, const Vertex *vertex)
 {
     PathResult *result = path->result;
-    note_guides(path, bsdf);
+    const SurfacePoint *point = &vertex->point;
+    note_guides(path, &vertex->bsdf);
+    if (vertex->bsdf.traits & TRAIT_OPEN && path->guided) {
+        note_mirrored_by_water(path, vertex);
+    }
     result->hit = true;
     result->position = point->position;
     result->depth = path->travelled;
@@ -148,7 +186,7 @@ static bool shade(Vertex *vertex)
     if (path->straight) {
         const float favour = 0.9f; // the other way leads to what is far darker
         bsdf->favour = path->result->seen == SEEN_LIGHT ? favour : 0.0f;
-        note_first_hit(path, point, bsdf);
+        note_first_hit(path, vertex);
     } else if (path->mirrored && path->guided) {
         note_mirrored(path, bsdf);
     }

@@ -215,6 +215,22 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "Wavelength of the pattern's largest features; 0 = the pattern's default."},
     {KEY_OF(Material, pattern_depth, "pattern_depth", KEY_FLOAT), .kinds = BUMPED, .high = 1e3,
      .unit = "m", .doc = "Height of the pattern's bumps; 0 = none."},
+    {KEY_OF(Material, wind, "wind", KEY_FLOAT), .kinds = BIT(MATERIAL_WATER), .high = 30,
+     .unit = "m/s",
+     .doc = "Speed of the wind 10 m above a lake, pond or river, which ripples it in patches: 1 a "
+            "breath, 2 light air, 4 a breeze; 0 = none. Ripples below a pixel blur what the water "
+            "mirrors. pattern_scale is then the length of the longest; 0 = those that the wind "
+            "raises over 1 km. Not of a sea, which has waves of its own."},
+    {KEY_OF(Material, wind_azimuth, "wind_azimuth", KEY_FLOAT), .kinds = BIT(MATERIAL_WATER),
+     .low = -360, .high = 360, .unit = "degrees",
+     .doc = "Where that wind comes from, clockwise from north (-z)."},
+    {KEY_OF(Material, calm, "calm", KEY_FLOAT), .kinds = BIT(MATERIAL_WATER), .high = 1,
+     .doc = "Share of the water that the gusts of that wind leave nearly still, as a mirror: 0 = "
+            "all is rippled, 1 = all is still."},
+    {KEY_OF(Material, gusts, "gusts", KEY_FLOAT), .kinds = BIT(MATERIAL_WATER), .high = 1e5,
+     .unit = "m",
+     .doc = "Size of the largest patches, still and rippled, across the wind; smaller "
+            "ones lie at their edges. 0 = 90 m."},
     {KEY_OF(Material, displacement, "displacement", KEY_ENUM), .kinds = PATTERNED,
      .names = DISPLACEMENTS,
      .doc = "Is the relief true geometry near the camera? auto: of barks, stone, "

@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "render/light/lights.h"
+#include "render/material/bsdf_ggx.h"
 
 #define ASSERT_NEAR(value, wanted, tolerance)                                             \
     do {                                                                                  \
@@ -175,6 +176,35 @@ static void swell_is_seen_but_casts_nothing(void **state)
     water_free(swell);
 }
 
+// A lake without wind, seen at 10 degrees, mirrors a dark wall: the guides for a denoiser hold the
+// wall by Fresnel's share, the same in every sample. Rough water's hold its own colour alone.
+static void still_water_guides_by_what_it_mirrors(void **state)
+{
+    (void)state;
+    for (int rough = 0; rough < 2; rough++) {
+        World *world = tiny_world(8, 8, 4, 0.2f);
+        const float sine = 0.173648178f; // of 10 degrees
+        world->material_count = 2;
+        world->material[1] = material_default(MATERIAL_WATER);
+        world->material[1].roughness = rough ? 0.4f : 0.0f;
+        world->camera = (Camera){.position = {0, 10.0f * sine, 10.0f * 0.984807753f},
+                                 .target = {0, 0, 0},
+                                 .up = {0, 1, 0},
+                                 .fov = 0.2f};
+        add_mesh(world, quad_mesh(vec3(-40, 0, 40), vec3(80, 0, 0), vec3(0, 0, -80)), 1, 0);
+        add_mesh(world, quad_mesh(vec3(-40, 0.1f, -30), vec3(80, 0, 0), vec3(0, 40, 0)), 0, 1);
+        Film *film = trace(world, 1, NULL);
+        float share = fresnel_dielectric(sine, world->material[1].ior, NULL);
+        assert_true(share > 0.2f && share < 0.6f);
+        for (int i = 0; i < 64; i++) {
+            ASSERT_NEAR(film->albedo[i].x, rough ? 1.0f : lerpf(1.0f, 0.2f, share), 0.01);
+            ASSERT_NEAR(film->normal[i].z, rough ? 0.0f : share, 0.02); // the wall's
+        }
+        film_free(film);
+        world_free(world);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -183,6 +213,7 @@ int main(void)
         cmocka_unit_test(network_has_mean_one),
         cmocka_unit_test(sky_lights_the_bottom_by_fresnel),
         cmocka_unit_test(sampling_agrees_with_brute_force),
+        cmocka_unit_test(still_water_guides_by_what_it_mirrors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,7 +119,8 @@ static const Material BUILTIN[] = {
      .absorption = {0.270f, 0.070f, 0.045f},
      .scattering = {0.045f, 0.050f, 0.055f},
      .anisotropy = 0.75f,
-     .ior = 1.34f},
+     .ior = 1.34f,
+     .calm = 0.5f},
     // A drop passes what it does not mirror on in other directions; too small to be seen as a lens.
     {.name = "sea/drops",
      .kind = MATERIAL_LEAF,

@@ -290,6 +290,7 @@ static const Material BUILTIN[] = {
      .scattering = {0.06f, 0.09f, 0.09f},
      .anisotropy = 0.75f,
      .ior = 1.33f,
+     .calm = 0.5f,
      .pattern = PATTERN_WATER,
      .pattern_depth = 0.004f},
     {.name = "lake",

@@ -138,6 +138,11 @@ typedef struct Material {
     BarkKind bark;       // PATTERN_BARK
     float pattern_scale; // m: wavelength of the pattern's largest feature; 0 = the kind's own
     float pattern_depth; // m: bump height; 0 = none
+    // MATERIAL_WATER without the waves of a sea (wind_ripples.h):
+    float wind;         // m/s; 0 = none, and no ripples of it
+    float wind_azimuth; // degrees: where it comes from, clockwise from -z
+    float calm;         // 0..1: share of the surface that gusts leave still
+    float gusts;        // m: size of the patches
     Displacement displacement;
     // PATTERN_BARK, 0..1 each:
     float moss, lichen; // how much of it grows there

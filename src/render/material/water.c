@@ -1,6 +1,7 @@
-// Open water: a dielectric surface with the waves of a sea (base/waves.h) and their foam. What of
-// the waves is finer than a pixel is roughness. Without any it is a mirror: even a narrow lobe
-// would spread what is ten thousand times as bright as the rest, a bolt, over many pixels.
+// Open water: a dielectric surface with the waves of a sea (base/waves.h) and their foam, or with
+// the ripples of wind on a lake (wind_ripples.h). What of them is finer than a pixel is roughness.
+// Without any it is a mirror: even a narrow lobe would spread what is ten thousand times as bright
+// as the rest, a bolt, over many pixels.
 //
 // Light finds its way into the body straight through the surface, without refraction
 // (TRAIT_OPEN): so the sun lights the bed and the water without noise. See path_surface.c.
@@ -11,6 +12,7 @@
 #include "render/material/foam.h"
 #include "render/material/maps.h"
 #include "render/material/material_ops.h"
+#include "render/material/wind_ripples.h"
 #include "render/warp.h"
 
 #include <math.h>
@@ -63,10 +65,49 @@ static Vec3 river_plume(Vec3 absorption)
                 white * expf(-way * absorption.z));
 }
 
+// Slopes that turn away are hidden by others, which face the viewer.
+static Vec3 turned_to(Vec3 normal, Vec3 wo)
+{
+    float facing = vec3_dot(normal, wo);
+    return facing < 0.0f ? vec3_madd(normal, -2.0f * facing, wo) : normal;
+}
+
+// roughness2: variance of slopes, summed over both axes. The core of GGX is as wide as that of a
+// Gaussian of these slopes; its tails are wider.
+static void roughen(Bsdf *b, float roughness2)
+{
+    float alpha = 0.75f * sqrtf(roughness2);
+    b->roughness = sqrtf(clampf(fmaxf(alpha, b->alpha), 0.0f, 0.5f));
+}
+
+static void ripple(Bsdf *b, const Material *m, const SurfacePoint *point, Vec3 wo)
+{
+    float azimuth = m->wind_azimuth * RADIANS_PER_DEGREE;
+    RippleWind wind = {.speed = m->wind,
+                       .way = {-sinf(azimuth), cosf(azimuth)},
+                       .calm = m->calm,
+                       .gusts = m->gusts,
+                       .longest = m->pattern_scale};
+    float cosine = fmaxf(fabsf(vec3_dot(surface_smooth_normal(point), wo)), 0.02f);
+    float level = sqrtf(wo.x * wo.x + wo.z * wo.z);
+    Vec2 view = level > 1e-6f ? (Vec2){wo.x / level, wo.z / level} : (Vec2){1.0f, 0.0f};
+    RipplePixel pixel = {view, point->footprint / cosine, point->footprint};
+    Vec2 place = {point->object_position.x, point->object_position.z};
+    RipplePoint at = wind_ripples_at(&wind, place, &pixel);
+    Vec3 slope = vec3(at.slope.x, 0.0f, at.slope.y);
+    // The slope is the water's: seen from below, it turns the normal, which points down, alike.
+    b->normal =
+        turned_to(vec3_normalize(vec3_madd(b->normal, point->backface ? 1.0f : -1.0f, slope)), wo);
+    roughen(b, at.roughness2);
+}
+
 static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, Vec3 wo)
 {
     b->foam_color = entry->material.color2;
     if (!point->waves || !point->has_uv) {
+        if (entry->material.wind > 0.0f) {
+            ripple(b, &entry->material, point, wo);
+        }
         if (point->foam > 0.0f) {
             Vec3 plume = river_plume(entry->material.absorption);
             whiten(b, point->foam, b->foam, plume); // its pattern tells where foam lies
@@ -79,13 +120,9 @@ static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point
     WavePoint wave;
     waves_at(point->waves, point->uv.x, point->uv.y, width, &wave);
     Vec3 normal = point->backface ? vec3_neg(wave.normal) : wave.normal;
-    float facing = vec3_dot(normal, wo);
-    // Slopes that turn away are hidden by others, which face the viewer.
-    b->normal = facing < 0.0f ? vec3_madd(normal, -2.0f * facing, wo) : normal;
+    b->normal = turned_to(normal, wo);
     whiten_sea(b, &wave, point->waves, point);
-    // The core of GGX is as wide as that of a Gaussian of these slopes; its tails are wider.
-    float alpha = 0.75f * sqrtf(wave.roughness2);
-    b->roughness = sqrtf(clampf(fmaxf(alpha, b->alpha), 0.0f, 0.5f));
+    roughen(b, wave.roughness2);
 }
 
 static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, float cos_o)
@@ -158,6 +195,7 @@ static void defaults(Material *m)
     m->color2 = vec3_splat(0.6f);
     m->roughness = 0.0f;
     m->ior = 1.34f;
+    m->calm = 0.5f;
 }
 
 const MaterialOps water_ops = {.traits = TRAIT_BODY | TRAIT_OPEN | TRAIT_MIRROR,
