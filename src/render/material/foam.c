@@ -115,7 +115,7 @@ Vec2 foam_stirred(Vec2 at, float spacing, float turns, uint32_t seed)
 static Vec2 lumps_slope(Vec2 at, float width)
 {
     static const float size[] = {0.31f, 0.13f, 0.055f, 0.023f}; // m
-    const float steep = 0.34f;                                  // of each size
+    const float steep = 0.18f;                                  // of each size
     Vec2 slope = {0.0f, 0.0f};
     for (uint32_t i = 0; i < sizeof size / sizeof size[0]; i++) {
         float seen = pattern_detail(size[i], width);
@@ -132,7 +132,7 @@ static Vec2 lumps_slope(Vec2 at, float width)
 
 Vec2 foam_slope(float cover, float share, Vec2 at, float width)
 {
-    const float thick = 0.05f, steepest = 1.2f; // m; slope
+    const float thick = 0.02f, steepest = 0.6f; // m; slope
     float step = fmaxf(width, 0.012f);
     Vec2 along = {at.x + step, at.y}, aside = {at.x, at.y + step};
     float x = foam_share(cover, (FoamPlace){along, along}, width) - share;
