@@ -100,7 +100,7 @@ static Vec3 soft_bed(const Strata *strata, float level, float footprint)
         }
         int border = side == 0 ? bed : bed + 1;
         float softness = noise_unit(2654435761u * (uint32_t)border, 5);
-        float soft = 0.06f + 1.4f * softness * softness * softness + 0.5f * footprint;
+        float soft = 0.1f + 1.5f * softness * softness + 0.5f * footprint;
         soft = fminf(soft, 0.49f * thick);
         float away = side == 0 ? top - level : level - floor;
         float share = 0.5f * smoothstepf(soft, -soft, away) * 2.0f;
@@ -160,7 +160,7 @@ static Ground wall(const Material *m, const SurfacePoint *point, Vec3 base, floa
         color = own_bed(m, point, base, rough.value);
     }
     float gully = smoothstepf(0.05f, 0.45f, point->site.y);
-    float washed = 0.28f + 0.35f * veil.value - 0.22f * run.value + 0.4f * gully;
+    float washed = 0.24f + 0.6f * veil.value - 0.2f * run.value + 0.35f * gully;
     color = vec3_lerp(color, mud, clampf(washed, 0.04f, 0.85f));
     float light = 1.0f + 0.1f * rough.value + 0.08f * run.value + 0.1f * crumbs.value;
     Ground g = {.color = vec3_scale(color, clampf(light, 0.5f, 1.4f))};
