@@ -97,6 +97,17 @@ bool landscape_step(Landscape *land, const LandscapeRates *rates, double time, b
            landscape_slopes(land, rates, time, run, e);
 }
 
+bool landscape_cut_streams(Landscape *land, const LandscapeRates *rates, double time,
+                           const Run *run, Error *e)
+{
+    if (run_is_cancelled(run)) {
+        return run_cancel_error(e);
+    }
+    lift(land, rates->uplift * time);
+    return landscape_find_route(land, rates->seed, run, e) &&
+           landscape_streams(land, rates, time, e);
+}
+
 bool landscape_slopes_only(Landscape *land, const LandscapeRates *rates, double time,
                            const Run *run, Error *e)
 {

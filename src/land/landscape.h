@@ -68,6 +68,25 @@ double landscape_scale_relief(Landscape *land, double relief);
 // leaves.
 void landscape_fell(Landscape *land, double slope);
 
+// The same along the slope's own direction and its beds: `factor` times as steep as each bed bears
+// (land->strata; without, as 45 degrees). Walls become planes, and edges sharp. ERROR_MEMORY.
+bool landscape_limit_slopes(Landscape *land, double factor, Error *e);
+
+// Rock creeps as soil does: diffusion, m^2, is the diffusivity times the time. ERROR_MEMORY.
+bool landscape_round(Landscape *land, double diffusion, const Run *run, Error *e);
+
+// What streams leave on the floors of valleys.
+typedef struct LandscapeWash {
+    double slope;      // of the floor of a stream that drains a hectare; others by area^-1/4
+    double least_area; // m^2: of streams with a floor
+    double across;     // slope of the floor toward its stream
+    uint64_t seed;     // as LandscapeRates.seed
+} LandscapeWash;
+
+// Fills valleys with sediment until their floors are as steep as their streams need, out of what
+// has left the land. All samples then drain over falling ways.
+bool landscape_lay_wash(Landscape *land, const LandscapeWash *wash, const Run *run, Error *e);
+
 // Finds anew where the beds of land->strata lie.
 void landscape_lay_stack(Landscape *land);
 
@@ -77,6 +96,10 @@ void landscape_set_base(Landscape *land, int64_t i, double height);
 // One step. The water's ways are found anew if `reroute`, and in the first step.
 bool landscape_step(Landscape *land, const LandscapeRates *rates, double time, bool reroute,
                     const Run *run, Error *e);
+
+// The part of a step that uplift and streams have in it; the water's ways are found anew.
+bool landscape_cut_streams(Landscape *land, const LandscapeRates *rates, double time,
+                           const Run *run, Error *e);
 
 // The part of a step that slopes have in it: weathering, rockfall, rubble and soil, no water.
 bool landscape_slopes_only(Landscape *land, const LandscapeRates *rates, double time,

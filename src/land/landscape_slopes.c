@@ -125,6 +125,55 @@ static bool wear_faces(Landscape *land, const LandscapeRates *rates, double time
     return true;
 }
 
+// ---- walls
+
+// One sweep of the fast sweeping method (Zhao 2005) over runs, along both axes forward or back.
+static void sweep_runs(const Landscape *land, double *run, bool right, bool down, double reach)
+{
+    int side = land->side;
+    for (int j = 0; j < side; j++) {
+        int row = down ? j : side - 1 - j;
+        for (int k = 0; k < side; k++) {
+            int column = right ? k : side - 1 - k;
+            int64_t i = (int64_t)row * side + column;
+            double west = column > 0 ? run[i - 1] : INFINITY;
+            double east = column < side - 1 ? run[i + 1] : INFINITY;
+            double north = row > 0 ? run[i - side] : INFINITY;
+            double south = row < side - 1 ? run[i + side] : INFINITY;
+            double x = west < east ? west : east, z = north < south ? north : south;
+            double most = steepest_stable(x, z, reach);
+            run[i] = run[i] < most ? run[i] : most;
+        }
+    }
+}
+
+bool landscape_limit_slopes(Landscape *land, double factor, Error *e)
+{
+    int64_t count = landscape_count(land);
+    double *run = memory_alloc(count, sizeof *run, e);
+    if (!run) {
+        return false;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        run[i] = run_of(land, i, surface(land, i));
+    }
+    for (int sweep = 0; sweep < 4; sweep++) {
+        sweep_runs(land, run, sweep % 2 == 0, sweep / 2 == 0, factor * land->cell);
+    }
+    double own = land->cell * land->cell;
+    for (int64_t i = 0; i < count; i++) {
+        double fallen = land->base[i] ? 0.0 : surface(land, i) - height_of(land, i, run[i]);
+        if (fallen > 0.0) {
+            double loose = fallen < land->loose[i] ? fallen : land->loose[i];
+            land->loose[i] -= loose;
+            land->rock[i] -= fallen - loose;
+            land->outflow += fallen * own;
+        }
+    }
+    free(run);
+    return true;
+}
+
 // ---- rubble and soil
 
 static const int STEP[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},

@@ -667,6 +667,38 @@ static void test_karst_is_fluted(void **state)
     assert_true(turned[0] > 1.9 * turned[1]);
 }
 
+// The normals of a wall of badlands turn across its fall, from runnel to runnel, more than down it,
+// whatever way it faces.
+static void test_runnels_follow_the_fall(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_BADLANDS;
+    m.pattern_depth = 0.5f;
+    m.pattern_scale = 10.0f;
+    static const float azimuth[] = {0.0f, 0.2f, 0.55f, 1.3f, 2.5f};
+    for (int a = 0; a < 5; a++) {
+        float x = cosf(azimuth[a]), z = sinf(azimuth[a]), s = 0.70710678f;
+        Vec3 normal = vec3(s * x, s, s * z), fall = vec3(s * x, -s, s * z), level = vec3(-z, 0, x);
+        double turned[2] = {0};
+        for (uint64_t i = 0; i < 2000; i++) {
+            Vec3 p = random_point(i, 200.0f), n[3];
+            for (int k = 0; k < 3; k++) {
+                Vec3 at = k == 0 ? p : vec3_madd(p, 0.2f, k == 1 ? level : fall);
+                SurfacePoint point = on_stone(at, 0.15f);
+                point.normal = point.geometric_normal = normal;
+                PatternShade shade = {.color = m.color, .normal = normal};
+                pattern_apply(&m, &point, &shade);
+                n[k] = shade.normal;
+            }
+            turned[0] += (double)fabsf(vec3_dot(vec3_sub(n[1], n[0]), level)) / 2000.0;
+            turned[1] += (double)fabsf(vec3_dot(vec3_sub(n[2], n[0]), level)) / 2000.0;
+        }
+        printf("    turned by %.3f across, by %.3f down\n", turned[0], turned[1]);
+        assert_true(turned[0] > 1.9 * turned[1]);
+    }
+}
+
 // A mat of moss has a relief of its own, also where the stone has none and is not displaced.
 static void test_moss_is_no_paint(void **state)
 {
@@ -826,6 +858,7 @@ int main(void)
         cmocka_unit_test(test_stone),
         cmocka_unit_test(test_stone_moss),
         cmocka_unit_test(test_karst_is_fluted),
+        cmocka_unit_test(test_runnels_follow_the_fall),
         cmocka_unit_test(test_moss_is_no_paint),
         cmocka_unit_test(test_masonry),
         cmocka_unit_test(test_dressed_stone),

@@ -203,8 +203,8 @@ static const Case scenes[] = {
      "different ends, or use kind: point"},
     {"objects: [{name: a, terrain: {form: fjord}}]\n",
      ":1:37: objects.a.terrain.form is 'fjord'; known: rivers, ridges, map, "
-     "noise, survey, canyon, mesas, alps, volcano, dunes, hills, coast, braided, karst, "
-     "meander, delta"},
+     "noise, survey, canyon, mesas, alps, volcano, dunes, hills, badlands, coast, braided, "
+     "karst, meander, delta"},
     {"objects: [{name: a, terrain: {form: canyon, evolution: {cells: 700}}}]\n",
      ":1:64: objects.a.terrain.evolution.cells is 700; it must be a power of two, such as 1024"},
     {"objects: [{name: a, terrain: {form: meander, size: 4096, resolution: 64, meander: {width: "

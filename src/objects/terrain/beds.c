@@ -126,6 +126,11 @@ static int own_beds(const TerrainParams *params, StrataBed *beds)
         beds[0] = (StrataBed){.thickness = 1.0f, .slope = 45.0f, .color = {0.3f, 0.26f, 0.2f}};
         return 1;
     }
+    if (params->form == TERRAIN_BADLANDS) { // mudstone
+        beds[0] = (StrataBed){
+            .thickness = 1.0f, .hardness = 0.2f, .slope = 45.0f, .color = {0.38f, 0.28f, 0.2f}};
+        return 1;
+    }
     if (params->form == TERRAIN_COAST) {
         return coast_beds(params, beds);
     }

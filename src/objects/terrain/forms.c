@@ -177,6 +177,13 @@ static bool finish_hills(Terrain *terrain, HeightField *field, const Run *run, E
     return height_field_fill(field, 1e-4f, e) && terrain_wet_hollows(field, e);
 }
 
+static bool finish_badlands(Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    (void)terrain;
+    (void)run;
+    return height_field_fill(field, 1e-4f, e) && terrain_wet_washes(field, e);
+}
+
 // Altitudes are km above the sea, or above the water table of karst.
 static bool finish_coast(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
@@ -291,6 +298,15 @@ static const Form FORMS[] = {
                        .sample_part = sample_evolved,
                        .finish = finish_hills,
                        .measure = terrain_measure_hills},
+    [TERRAIN_BADLANDS] = {.material = "badlands",
+                          .relief = 0.1f,
+                          .wavelength = 0.125f,
+                          .shows_beds = true,
+                          .evolve = terrain_evolve_badlands,
+                          .record = record_loose,
+                          .sample_part = sample_evolved,
+                          .finish = finish_badlands,
+                          .measure = terrain_measure_badlands},
     [TERRAIN_COAST] = {.material = "terrain/coast",
                        .repeat = REPEAT_SHORE,
                        .relief = 0.04f,

@@ -2,14 +2,12 @@
 // away, until the three balance: convex tops, one valley about every `spacing`. What spaces the
 // valleys is the length sqrt(D / K) of creep D and incision K (Perron et al. 2009).
 #include "base/exact_math.h"
-#include "base/memory.h"
 #include "base/random.h"
 #include "land/height_drainage.h"
 #include "objects/terrain/internal.h"
 #include "objects/terrain/noise.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum { CELLS_PER_VALLEY = 20 };
 
@@ -62,55 +60,6 @@ static void roughen(const Hills *h, Landscape *land)
     }
 }
 
-// One explicit step of dh/dt = D laplace(h): r = D t / cell^2 <= 1/4. Nothing crosses the border;
-// what creeps into a base has left.
-static void creep_once(Landscape *land, double *next, double r, int threads)
-{
-    int side = land->side;
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int row = 0; row < side; row++) {
-        const double *h = land->rock + (int64_t)row * side;
-        const double *north = row > 0 ? h - side : h, *south = row < side - 1 ? h + side : h;
-        for (int column = 0; column < side; column++) {
-            double west = h[column > 0 ? column - 1 : column];
-            double east = h[column < side - 1 ? column + 1 : column];
-            double around = north[column] + south[column] + west + east;
-            int64_t i = (int64_t)row * side + column;
-            next[i] = land->base[i] ? h[column] : h[column] + r * (around - 4.0 * h[column]);
-        }
-    }
-}
-
-static double sum_of(const double *h, int64_t count)
-{
-    double sum = 0.0;
-    for (int64_t i = 0; i < count; i++) {
-        sum += h[i];
-    }
-    return sum;
-}
-
-// Soil creeps for a share of the lifetime. It never lacks: soft rock turns to soil fast.
-static bool creep(const Hills *h, Landscape *land, double share, const Run *run, Error *e)
-{
-    int64_t count = landscape_count(land);
-    double *next = memory_alloc(count, sizeof *next, e);
-    if (!next) {
-        return false;
-    }
-    double whole = h->creep * share / (land->cell * land->cell), before = sum_of(land->rock, count);
-    int steps = 1 + (int)(whole / 0.2);
-    for (int i = 0; i < steps; i++) {
-        creep_once(land, next, whole / steps, run->threads);
-        double *old = land->rock;
-        land->rock = next;
-        next = old;
-    }
-    land->outflow += (before - sum_of(land->rock, count)) * land->cell * land->cell;
-    free(next);
-    return true;
-}
-
 static bool evolve(const Hills *h, Landscape *land, double share, const Run *run, Error *e)
 {
     // In a step streams move less than a cell up a slope, so that creep keeps pace.
@@ -118,8 +67,9 @@ static bool evolve(const Hills *h, Landscape *land, double share, const Run *run
     int steps = 1 + (int)(share * h->rates.incision * length / (0.4 * land->cell));
     for (int i = 0; i < steps; i++) {
         run_progress(run, "erosion", (double)i / steps);
-        // Streams come last: they clear what has crept into them.
-        if (!creep(h, land, share / steps, run, e) ||
+        // Soil never lacks: soft rock turns to it fast. Streams come last: they clear what has
+        // crept into them.
+        if (!landscape_round(land, h->creep * (share / steps), run, e) ||
             !landscape_step(land, &h->rates, share / steps, true, run, e)) {
             return false;
         }

@@ -43,7 +43,8 @@ enum {
     STREAM_SCROLLS = 85,
     STREAM_LIPS = 86,
     STREAM_DELTA = 87,
-    STREAM_BASINS = 88
+    STREAM_BASINS = 88,
+    STREAM_LUMPS = 89
 };
 
 // The tree and everything derived from it.
@@ -307,6 +308,12 @@ Landscape *terrain_evolve_hills(Terrain *terrain, const Run *run, Error *e);
 bool terrain_measure_hills(const Terrain *terrain, MeasureList *list, Error *e);
 // hills.c: fills in the wetness: 1 where the water of a hollow gathers, 0 on crests.
 bool terrain_wet_hollows(HeightField *field, Error *e);
+// badlands.c: the same of the form badlands.
+Landscape *terrain_evolve_badlands(Terrain *terrain, const Run *run, Error *e);
+// badlands.c: fills in the wetness: 0 on crests, up to 0.5 in rills and gullies, 1 on washes.
+bool terrain_wet_washes(HeightField *field, Error *e);
+// badlands_measure.c: after terrain_evolve_badlands.
+bool terrain_measure_badlands(const Terrain *terrain, MeasureList *list, Error *e);
 // volcano.c: the same of the form volcano. terrain->ground: HeightField.ground on its grid, as
 // heights.
 Landscape *terrain_evolve_volcano(Terrain *terrain, const Run *run, Error *e);

@@ -85,6 +85,15 @@ typedef struct HillParams {
     float rills;   // 0 = none, under grass; 1 = deep ones in bare ground
 } HillParams;
 
+// Soft bare beds that rills cut.
+typedef struct BadlandParams {
+    float rills; // m: from rill to rill at least; 0 = as the cells allow
+    float depth; // m, of a rill that drains 50 m^2
+    float slope; // degrees: the steepest wall
+    float wash;  // fall of the floor of a wash that drains a hectare; 0 = none
+    int outlets; // on the border
+} BadlandParams;
+
 // A river that braids on a plain of gravel.
 typedef struct BraidedParams {
     float width;          // m, of the plain; 0 = half of the size
@@ -135,7 +144,7 @@ typedef struct EvolutionParams {
 } EvolutionParams;
 
 extern const struct Table strata_table, canyon_table, mesa_table, alps_table, volcano_table,
-    dune_table, hill_table, coast_table, braided_table, karst_table, meander_table, delta_table,
-    evolution_table, terrain_lake_table, terrain_forest_table;
+    dune_table, hill_table, badland_table, coast_table, braided_table, karst_table, meander_table,
+    delta_table, evolution_table, terrain_lake_table, terrain_forest_table;
 
 #endif

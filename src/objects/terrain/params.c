@@ -38,6 +38,7 @@ TerrainParams terrain_params_default(void)
         .alps = {.ice = 1.0f, .ice_line = 0.4f, .outlets = 5, .wind = 270.0f},
         .volcano = {.flows = 16, .cones = 5, .wind = 270.0f, .age = 0.15f},
         .hills = {.outlets = 4},
+        .badlands = {.depth = 1.0f, .slope = 45.0f, .wash = 0.05f, .outlets = 4},
         .coast = {.sea = SIDE_SOUTH,
                   .wave_height = 2.0f,
                   .tide = 3.0f,

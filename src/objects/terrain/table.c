@@ -404,23 +404,13 @@ static const Table TILE_TABLE = {
     .size = sizeof(TerrainTileParams),
     .keys = TILE_KEYS};
 
-static const EnumName FORM_NAMES[] = {{"rivers", TERRAIN_RIVERS},
-                                      {"ridges", TERRAIN_RIDGES},
-                                      {"map", TERRAIN_MAP},
-                                      {"noise", TERRAIN_NOISE},
-                                      {"survey", TERRAIN_SURVEY},
-                                      {"canyon", TERRAIN_CANYON},
-                                      {"mesas", TERRAIN_MESAS},
-                                      {"alps", TERRAIN_ALPS},
-                                      {"volcano", TERRAIN_VOLCANO},
-                                      {"dunes", TERRAIN_DUNES},
-                                      {"hills", TERRAIN_HILLS},
-                                      {"coast", TERRAIN_COAST},
-                                      {"braided", TERRAIN_BRAIDED},
-                                      {"karst", TERRAIN_KARST},
-                                      {"meander", TERRAIN_MEANDER},
-                                      {"delta", TERRAIN_DELTA},
-                                      {0}};
+static const EnumName FORM_NAMES[] = {
+    {"rivers", TERRAIN_RIVERS},   {"ridges", TERRAIN_RIDGES},   {"map", TERRAIN_MAP},
+    {"noise", TERRAIN_NOISE},     {"survey", TERRAIN_SURVEY},   {"canyon", TERRAIN_CANYON},
+    {"mesas", TERRAIN_MESAS},     {"alps", TERRAIN_ALPS},       {"volcano", TERRAIN_VOLCANO},
+    {"dunes", TERRAIN_DUNES},     {"hills", TERRAIN_HILLS},     {"badlands", TERRAIN_BADLANDS},
+    {"coast", TERRAIN_COAST},     {"braided", TERRAIN_BRAIDED}, {"karst", TERRAIN_KARST},
+    {"meander", TERRAIN_MEANDER}, {"delta", TERRAIN_DELTA},     {0}};
 
 static const EnumName SHOW_NAMES[] = {
     {"land", SHOW_LAND}, {"map", SHOW_MAP}, {"tree", SHOW_TREE}, {0}};
@@ -433,7 +423,8 @@ static const Key TERRAIN_KEYS[] = {
          "on a plane; survey: a raster of surveyed heights; canyon: a plateau of beds that a river "
          "has cut; mesas: what is left of such a plateau; alps: a rising block, cut by rivers and "
          "worn by glaciers; volcano: tephra and lava about a vent; dunes: sand that the wind "
-         "carries over a plain; hills: rounded land under creeping soil, which streams cut; coast: "
+         "carries over a plain; hills: rounded land under creeping soil, which streams cut; "
+         "badlands: bare beds that rills and gullies cut, with washes between; coast: "
          "cliffs, shore platforms, stacks and beaches that waves make; braided: a river in many "
          "threads on its plain of gravel, in a valley; karst: towers and cones of limestone that "
          "water has dissolved; meander: a river that winds in its floodplain, with point "
@@ -444,11 +435,12 @@ static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6, .unit = "m",
      .doc = "Side length of the square; all else scales with it."},
     {KEY_OF(TerrainParams, relief, "relief", KEY_FLOAT), .high = 1e5, .unit = "m",
-     .doc = "Height of the highest valley slopes above the outlets, of the highest ridge above "
-            "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
-            "of mesas, hills and coasts 0.04, of karst 0.05, of meander 0.03, of braided 0.1, of "
-            "alps 0.16 and of a "
-            "volcano 0.13 of the size. Not of noise alone, surveys or dunes."},
+     .doc =
+         "Height of the highest valley slopes above the outlets, of the highest ridge above "
+         "the plain, or of the plateau above the river; 0 = natural slopes, of a canyon 0.09, "
+         "of mesas, hills and coasts 0.04, of karst 0.05, of meander 0.03, of braided and badlands "
+         "0.1, of alps 0.16 and of a "
+         "volcano 0.13 of the size. Not of noise alone, surveys or dunes."},
     {KEY_OF(TerrainParams, resolution, "resolution", KEY_INT), .low = 16, .high = 8192,
      .doc = "Cells per side, a power of two; it changes the detail, not the form."},
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
@@ -487,6 +479,8 @@ static const Key TERRAIN_KEYS[] = {
      .doc = "Dunes, of form: dunes."},
     {KEY_OF(TerrainParams, hills, "hills", KEY_GROUP), .table = &hill_table,
      .doc = "Rounded hills, of form: hills."},
+    {KEY_OF(TerrainParams, badlands, "badlands", KEY_GROUP), .table = &badland_table,
+     .doc = "Badlands, of form: badlands."},
     {KEY_OF(TerrainParams, coast, "coast", KEY_GROUP), .table = &coast_table,
      .doc = "Coast that waves cut, of form: coast."},
     {KEY_OF(TerrainParams, braided, "braided", KEY_GROUP), .table = &braided_table,
@@ -498,7 +492,8 @@ static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, delta, "delta", KEY_GROUP), .table = &delta_table,
      .doc = "River delta, of form: delta."},
     {KEY_OF(TerrainParams, evolution, "evolution", KEY_GROUP), .table = &evolution_table,
-     .doc = "Processes that make form: canyon, mesas, alps, volcano, hills, coast and karst."},
+     .doc = "Processes that make form: canyon, mesas, alps, volcano, hills, badlands, "
+            "coast and karst."},
     {KEY_OF(TerrainParams, tiles, "tiles", KEY_GROUP), .table = &TILE_TABLE,
      .doc = "Tiles of finer ground, for ramify grow --tile."},
     {KEY_OF(TerrainParams, beyond, "beyond", KEY_INT), .high = 8,

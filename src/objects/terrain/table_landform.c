@@ -268,6 +268,38 @@ const Table hill_table = {.name = "hills",
                           .size = sizeof(HillParams),
                           .keys = HILL_KEYS};
 
+static const Key BADLAND_KEYS[] = {
+    {KEY_OF(BadlandParams, rills, "rills", KEY_FLOAT), .high = 1e4, .unit = "m",
+     .doc = "Least distance from one rill to the next; 0 = as fine as the cells allow, 8 cells."},
+    {KEY_OF(BadlandParams, depth, "depth", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc =
+         "Depth that the last storms have cut rills that drain 50 square metres; larger ones are "
+         "deeper."},
+    {KEY_OF(BadlandParams, slope, "slope", KEY_FLOAT), .low = 20, .high = 80, .unit = "degrees",
+     .doc = "The steepest wall of beds whose own `slope` is 45 degrees; others in proportion."},
+    {KEY_OF(BadlandParams, wash, "wash", KEY_FLOAT), .high = 0.5f,
+     .doc = "Fall of the flat floor of a wash that drains a hectare, m by the metre; larger ones "
+            "fall less. More = valleys filled farther up; 0 = none."},
+    {KEY_OF(BadlandParams, outlets, "outlets", KEY_INT), .low = 1, .high = 64,
+     .doc = "Number of washes that leave over the border."},
+    {0},
+};
+
+const Table badland_table = {
+    .name = "badlands",
+    .doc = "Soft bare beds that storm water cuts into gullies and rills with knife edges between "
+           "them, and washes on the floors of the valleys. The relief is about the height of the "
+           "highest above the outlets.",
+    .example = "objects:\n"
+               "  - name: breaks\n"
+               "    terrain:\n"
+               "      form: badlands\n"
+               "      size: 400\n"
+               "      relief: 45\n"
+               "      badlands: {slope: 48}\n",
+    .size = sizeof(BadlandParams),
+    .keys = BADLAND_KEYS};
+
 static const EnumName SEA_SIDES[] = {
     {"north", SIDE_NORTH}, {"east", SIDE_EAST}, {"south", SIDE_SOUTH}, {"west", SIDE_WEST}, {0}};
 

@@ -47,7 +47,8 @@ typedef enum TerrainForm {
     TERRAIN_BRAIDED, // a braided river in its valley
     TERRAIN_KARST,   // towers of dissolved limestone
     TERRAIN_MEANDER, // a winding river in its floodplain
-    TERRAIN_DELTA    // a river that builds land in a shallow sea
+    TERRAIN_DELTA,   // a river that builds land in a shallow sea
+    TERRAIN_BADLANDS // soft beds that rills cut
 } TerrainForm;
 
 // What is drawn.
@@ -197,6 +198,7 @@ typedef struct TerrainParams {
     VolcanoParams volcano;
     DuneParams dunes;
     HillParams hills;
+    BadlandParams badlands;
     CoastParams coast;
     BraidedParams braided;
     KarstParams karst;
@@ -251,6 +253,8 @@ bool terrain_evolves(const TerrainParams *params);
 // Of TERRAIN_HILLS: cells a side of the grid of the processes. It resolves what creeping soil
 // leaves; nothing is smaller, so the land is the same at any resolution.
 int terrain_hill_cells(const TerrainParams *params);
+// Of TERRAIN_BADLANDS: the same. It resolves the rills, at most as finely as the land is sampled.
+int terrain_badland_cells(const TerrainParams *params);
 
 // Height of the lake, in the field's own space.
 float terrain_water_height(const TerrainParams *params, const HeightField *field);

@@ -28,14 +28,6 @@ static float bed_level(const SurfacePoint *point, float thickness, Vec3 up)
     return vec3_dot(p, up) / thickness + fold;
 }
 
-// A random number per bed, interpolated smoothly between beds.
-static float bed_tone(float level, uint32_t seed)
-{
-    float floor_level = floorf(level), t = level - floor_level;
-    uint32_t bed = (uint32_t)(int32_t)floor_level * 2654435761u + seed;
-    return lerpf(noise_unit(bed, 3), noise_unit(bed + 2654435761u, 3), smoothstepf(0.78f, 1.0f, t));
-}
-
 // The blocks of a face: by the land's beds where it has some, else by beds that dip steeply and are
 // folded.
 static CragsRock face_of(const SurfacePoint *point, float size, float thick)
@@ -260,45 +252,6 @@ void pattern_alps(const Material *m, const SurfacePoint *point, PatternShade *sh
     g = pattern_shore(point, vec3_scale(m->color, 1.25f), m->pattern_depth, g);
     shade->color = g.color;
     shade->normal = crags_normal(point, shade->normal, vec3_scale(g.slope, m->pattern_depth));
-}
-
-void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade *shade)
-{
-    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 40.0f;
-    float upright = fabsf(surface_smooth_normal(point).y);
-    PatternOctaves rough = pattern_octaves(point, 0.5f * scale, 8, 0.54f, 1.3f, 111);
-    // Rills run down the slopes; swelling clay dries to a crust of crumbs.
-    PatternOctaves rills = pattern_octaves(point, 0.16f * scale, 5, 0.62f, 0.11f, 121);
-    PatternOctaves crumbs = pattern_octaves(point, 0.012f * scale, 3, 0.7f, 1.0f, 127);
-    float level = bed_level(point, scale, vec3(0.05f, 1.0f, 0.03f)) + 0.05f * rough.value;
-    float tone = bed_tone(level, 11);
-    tone = lerpf(tone, bed_tone(3.7f * level, 13),
-                 0.45f * pattern_detail(0.3f * scale, point->footprint));
-    tone = lerpf(tone, bed_tone(14.1f * level, 17),
-                 0.3f * pattern_detail(0.07f * scale, point->footprint));
-    Vec3 pale = {0.47f, 0.36f, 0.25f}, dark = {0.16f, 0.065f, 0.043f};
-    Vec3 color = vec3_lerp(shade->color, m->color2, smoothstepf(0.25f, 0.55f, tone));
-    color = vec3_lerp(color, pale, smoothstepf(0.66f, 0.86f, tone));
-    color = vec3_lerp(color, dark, 0.75f * smoothstepf(0.24f, 0.08f, tone));
-    color = vec3_scale(
-        color,
-        clampf(1.0f + 0.12f * rough.value - 0.2f * rills.value + 0.14f * crumbs.value, 0.5f, 1.5f));
-    Vec3 slope = vec3_scale(rough.slope, 0.03f * scale);
-    slope = vec3_madd(slope, 0.05f * scale, rills.slope);
-    slope = vec3_madd(slope, 0.0035f * scale, crumbs.slope);
-    slope.y += 1.3f * (tone - 0.5f);
-    // Sand and rubble where it is flat.
-    PatternOctaves sand = pattern_octaves(point, 0.3f * scale, 7, 0.55f, 1.0f, 131);
-    Vec3 floor_color = vec3_lerp(vec3_lerp(shade->color, pale, 0.45f), m->color2, 0.25f);
-    floor_color = vec3_scale(floor_color, 1.0f + 0.2f * clampf(sand.value, -1.3f, 1.3f));
-    float scrub = smoothstepf(0.25f, 0.6f,
-                              pattern_octaves(point, 0.12f * scale, 3, 0.7f, 1.0f, 141).value +
-                                  0.5f * point->site.y);
-    floor_color = vec3_lerp(floor_color, vec3(0.085f, 0.088f, 0.045f), 0.65f * scrub);
-    float flat = smoothstepf(0.86f, 0.95f, upright + 0.08f * sand.value);
-    shade->color = vec3_lerp(color, floor_color, flat);
-    slope = vec3_lerp(slope, vec3_scale(sand.slope, 0.02f * scale), flat);
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, m->pattern_depth));
 }
 
 // Linear between the stops; between color and color2 without any.
