@@ -13,8 +13,9 @@ struct Stage {
     Views views;   // see stage_see_from
     const char *isa;
     SceneBuilder *builder;
-    Scene *scene; // the current scene; owned, because the world borrows from it; NULL at first
-    World *world; // owned by the builder
+    Scene *scene;  // the current scene; owned, because the world borrows from it; NULL at first
+    Scene *lender; // owned: whose materials the renderer borrows from; often `scene` itself
+    World *world;  // owned by the builder
     Renderer *renderer;
     StageStats stats;
 };
@@ -39,6 +40,7 @@ void stage_free(Stage *stage)
     if (stage) {
         renderer_free(stage->renderer);
         scene_builder_free(stage->builder);
+        scene_free(stage->lender == stage->scene ? NULL : stage->lender);
         scene_free(stage->scene);
         free(stage);
     }
@@ -82,9 +84,9 @@ static unsigned find_changes(const Scene *old, const Scene *now)
 }
 
 // Builds or updates with the stage's camera for view-dependent geometry, not the scene's.
-static bool set_up(Stage *stage, Scene *scene, bool fits, const Run *run, Error *e)
+static bool set_up(Stage *stage, Scene *scene, bool fits, unsigned changed, const Run *run,
+                   Error *e)
 {
-    unsigned changed = stage->scene ? find_changes(stage->scene, scene) : 0;
     Camera own = scene->camera;
     scene->camera = stage->camera;
     stage->stats.geometries += !fits;
@@ -110,6 +112,19 @@ static bool set_up(Stage *stage, Scene *scene, bool fits, const Run *run, Error 
     return done;
 }
 
+// Frees what neither the world nor the renderer borrows from any more.
+static void take_over(Stage *stage, Scene *scene, Scene *lender)
+{
+    if (stage->lender != stage->scene && stage->lender != lender) {
+        scene_free(stage->lender);
+    }
+    if (stage->scene != lender) {
+        scene_free(stage->scene);
+    }
+    stage->scene = scene;
+    stage->lender = lender;
+}
+
 bool stage_set(Stage *stage, Scene *scene, const Run *run, Error *e)
 {
     bool fits = stage->scene && scene_builder_fits(stage->builder, scene);
@@ -117,9 +132,10 @@ bool stage_set(Stage *stage, Scene *scene, const Run *run, Error *e)
         renderer_free(stage->renderer);
         stage->renderer = NULL;
     }
-    bool done = set_up(stage, scene, fits, run, e);
-    scene_free(stage->scene); // only now: the renderer has compared against it
-    stage->scene = scene;
+    unsigned changed = stage->scene ? find_changes(stage->scene, scene) : 0;
+    bool lends = !stage->renderer || changed & RENDERER_MATERIALS;
+    bool done = set_up(stage, scene, fits, changed, run, e);
+    take_over(stage, scene, lends ? scene : stage->lender); // only now: the builder has compared
     return done;
 }
 

@@ -10,9 +10,10 @@ typedef struct World World;
 typedef struct Renderer Renderer;
 
 // Builds the acceleration structures (Embree); progress stage "build". The world and isa are
-// borrowed and must outlive the renderer. isa: NULL for the best instruction set of this machine;
-// "sse4.2" (sse2, avx, avx2, avx512) pins it, for golden images. Fails with ERROR_MEMORY when the
-// structures do not fit.
+// borrowed and must outlive the renderer, and so must what its materials borrow (layers, colours,
+// names of files), until an update with RENDERER_MATERIALS takes others. isa: NULL for the best
+// instruction set of this machine; "sse4.2" (sse2, avx, avx2, avx512) pins it, for golden images.
+// Fails with ERROR_MEMORY when the structures do not fit.
 Renderer *renderer_new(const World *world, const char *isa, const Run *run, Error *e);
 void renderer_free(Renderer *renderer); // NULL is fine
 

@@ -100,6 +100,46 @@ static void geometry_is_made_once(void **state)
     scene_free(scene);
 }
 
+// A material's layers and its scale of colours are still those of the first frame when a later one
+// shows the same materials, although each frame is a scene of its own.
+static void layers_and_colours_last(void **state)
+{
+    (void)state;
+    Scene *scene = read_scene(
+        "sky: {kind: sun_sky}\n"
+        "materials:\n"
+        "  - {name: turf, kind: diffuse, color: [0.02, 0.7, 0.02]}\n"
+        "  - {name: rock, color: 0.3, layers: [{material: turf, fray: 2, where: [{map: slope, "
+        "range: [0, 20], fade: 5}]}]}\n"
+        "  - {name: map, pattern: altitude, colors: [{at: 0, color: 0.1}, {at: 1, color: [0.9, 0, "
+        "0]}]}\n",
+        "objects:\n"
+        "  - name: land\n"
+        "    material: rock\n"
+        "    terrain: {form: noise, size: 8, relief: 2, resolution: 32, beyond: 0}\n"
+        "  - name: chart\n"
+        "    material: map\n"
+        "    terrain: {form: noise, size: 8, relief: 2, resolution: 32, beyond: 0, position: [0, "
+        "4, "
+        "-4], show: map}\n");
+    TurntableParams params = turntable_params_default();
+    params.frames = 4;
+    params.turns = 0.0; // detail of land is that of the first view
+    Turntable *t = make_turntable(scene, &params);
+    Stage *stage = stage_new(&scene->camera, NULL, false, NULL);
+    film_free(shoot_one(stage, frame_of(t, 0)));
+    for (int i = 1; i < 4; i++) {
+        Film *film = shoot_one(stage, frame_of(t, i)), *fresh = shoot_afresh(frame_of(t, i));
+        assert_memory_equal(film->color, fresh->color, sizeof(Vec3) * FILM_WIDTH * FILM_HEIGHT);
+        film_free(film);
+        film_free(fresh);
+    }
+    assert_int_equal(stage_stats(stage)->geometries, 1);
+    stage_free(stage);
+    turntable_free(t);
+    scene_free(scene);
+}
+
 // ---- growth
 
 static bool same_array(const void *a, const void *b, size_t size, int64_t count)
@@ -246,6 +286,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spin_is_the_object_turned),
         cmocka_unit_test(geometry_is_made_once),
+        cmocka_unit_test(layers_and_colours_last),
         cmocka_unit_test(growth_is_remembered),
         cmocka_unit_test(only_the_changed_object_is_made_again),
     };

@@ -15,8 +15,8 @@ typedef struct Steps {
 
 static Steps terracettes(const SurfacePoint *point, float rise, float upright)
 {
-    PatternOctaves bend = pattern_octaves(point, 14.0f, 3, 0.6f, 1.0f, 311);
-    float phase = 2.0f * PI_F * (point->object_position.y / rise + 0.9f * bend.value);
+    PatternOctaves bend = pattern_octaves(point, 34.0f, 4, 0.5f, 1.0f, 311);
+    float phase = 2.0f * PI_F * (point->object_position.y / rise + 0.7f * bend.value);
     float apart = rise / sqrtf(fmaxf(1.0f - upright * upright, 0.01f)); // m along the slope
     float seen = pattern_detail(apart, point->footprint) *
                  smoothstepf(0.935f, 0.87f, upright + 0.02f * bend.value);
@@ -24,7 +24,7 @@ static Steps terracettes(const SurfacePoint *point, float rise, float upright)
     seen *= smoothstepf(-0.35f, 0.25f, ends.value);
     float wave = sinf(phase);
     return (Steps){.riser = seen * smoothstepf(0.2f, 0.9f, wave),
-                   .slope = vec3(0.0f, 0.55f * seen * cosf(phase), 0.0f)};
+                   .slope = vec3(0.0f, 0.4f * seen * cosf(phase), 0.0f)};
 }
 
 void pattern_hills(const Material *m, const SurfacePoint *point, PatternShade *shade)
@@ -34,7 +34,7 @@ void pattern_hills(const Material *m, const SurfacePoint *point, PatternShade *s
     PatternOctaves broad = pattern_octaves(point, 90.0f * scale, 4, 0.6f, 1.0f, 301);
     PatternOctaves sward = pattern_octaves(point, 6.0f * scale, 5, 0.7f, 1.0f, 303);
     PatternOctaves tufts = pattern_octaves(point, 0.5f * scale, 4, 0.7f, 0.8f, 307);
-    Steps steps = terracettes(point, 1.1f * scale, upright);
+    Steps steps = terracettes(point, 0.6f * scale, upright);
     float wet = point->site.y + 0.22f * broad.value + 0.10f * sward.value;
     float green = smoothstepf(0.25f, 0.75f, wet);
     Vec3 grass = vec3_lerp(shade->color, m->color2, green);
@@ -51,7 +51,7 @@ void pattern_hills(const Material *m, const SurfacePoint *point, PatternShade *s
     float scar = smoothstepf(0.90f, 0.80f, upright + 0.05f * sward.value) *
                  smoothstepf(0.35f, 0.6f, sward.value - 0.2f * broad.value);
     Vec3 soil = {0.155f, 0.115f, 0.075f};
-    float bare = fmaxf(0.75f * scar, 0.45f * steps.riser);
+    float bare = fmaxf(0.75f * scar, 0.35f * steps.riser);
     float depth = m->pattern_depth;
     Vec3 slope = vec3_scale(sward.slope, 0.15f * depth);
     slope = vec3_madd(slope, 0.06f * depth * (1.0f - bare), tufts.slope);
