@@ -40,8 +40,9 @@ static Slopes slopes_of(const RippleWind *wind, float width, float longer, int c
 {
     Slopes s = {0.0, 0.0, 0.0};
     RipplePixel pixel = {{1.0f, 0.0f}, longer * width, width};
+    WindRipples ripples = wind_ripples_of(wind);
     for (int i = 0; i < count; i++) {
-        RipplePoint p = wind_ripples_at(wind, random_place((uint64_t)i, 20000.0f), &pixel);
+        RipplePoint p = wind_ripples_at(&ripples, random_place((uint64_t)i, 20000.0f), &pixel);
         double along = (double)(p.slope.x * wind->way.x + p.slope.y * wind->way.y);
         double across = (double)(p.slope.y * wind->way.x - p.slope.x * wind->way.y);
         s.along += along * along / count;
@@ -95,13 +96,14 @@ static void long_pixels_hide_crests_across(void **state)
     (void)state;
     RippleWind wind = BREEZE;
     wind.longest = 2.0f;
+    WindRipples ripples = wind_ripples_of(&wind);
     RipplePixel with = {wind.way, 6.0f, 0.2f};
     RipplePixel across = {{wind.way.y, -wind.way.x}, 6.0f, 0.2f};
     double seen[2] = {0.0, 0.0};
     for (uint64_t i = 0; i < 20000; i++) {
         Vec2 place = random_place(i, 5000.0f);
-        RipplePoint a = wind_ripples_at(&wind, place, &with);
-        RipplePoint b = wind_ripples_at(&wind, place, &across);
+        RipplePoint a = wind_ripples_at(&ripples, place, &with);
+        RipplePoint b = wind_ripples_at(&ripples, place, &across);
         seen[0] += (double)(a.slope.x * a.slope.x + a.slope.y * a.slope.y);
         seen[1] += (double)(b.slope.x * b.slope.x + b.slope.y * b.slope.y);
     }
@@ -114,13 +116,14 @@ static void patches_cover_their_share(void **state)
     for (float calm = 0.1f; calm < 0.95f; calm += 0.2f) {
         RippleWind wind = BREEZE;
         wind.calm = calm;
+        WindRipples ripples = wind_ripples_of(&wind);
         for (float width = 0.01f; width < 1000.0f; width *= 10.0f) {
             RipplePixel pixel = {{1.0f, 0.0f}, width, width};
             double sum = 0.0;
             enum { COUNT = 30000 };
             for (uint64_t i = 0; i < COUNT; i++) {
                 Vec2 place = random_place(i, 50000.0f);
-                sum += (double)wind_ripples_at(&wind, place, &pixel).cover / COUNT;
+                sum += (double)wind_ripples_at(&ripples, place, &pixel).cover / COUNT;
             }
             ASSERT_NEAR(sum, 1.0f - calm, 0.035);
         }
@@ -133,6 +136,7 @@ static void patches_have_their_size(void **state)
     (void)state;
     RippleWind wind = BREEZE;
     wind.calm = 0.5f;
+    WindRipples ripples = wind_ripples_of(&wind);
     RipplePixel pixel = {{1.0f, 0.0f}, 0.05f, 0.05f};
     enum { COUNT = 20000, STEPS = 4 };
     static const float step[STEPS] = {0.02f, 0.15f, 0.5f, 6.0f}; // of gusts
@@ -140,13 +144,13 @@ static void patches_have_their_size(void **state)
     int either = 0;
     for (uint64_t i = 0; i < COUNT; i++) {
         Vec2 place = random_place(i, 50000.0f);
-        double here = (double)wind_ripples_at(&wind, place, &pixel).cover - 0.5;
+        double here = (double)wind_ripples_at(&ripples, place, &pixel).cover - 0.5;
         either += fabs(here) > 0.4;
         square += here * here;
         for (int k = 0; k < STEPS; k++) {
             Vec2 there = {place.x - wind.way.y * step[k] * wind.gusts,
                           place.y + wind.way.x * step[k] * wind.gusts};
-            product[k] += here * ((double)wind_ripples_at(&wind, there, &pixel).cover - 0.5);
+            product[k] += here * ((double)wind_ripples_at(&ripples, there, &pixel).cover - 0.5);
         }
     }
     assert_true(either > COUNT / 2);

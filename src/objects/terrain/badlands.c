@@ -14,10 +14,6 @@
 
 enum { FIRST_CELLS = 128, CELLS_PER_RILL = 8, COARSE_STEPS = 48, FINE_STEPS = 4 };
 
-// Measured for hills, see hills.c: the distance from valley to valley over sqrt(D / K).
-static const double SPACING = 15.5;
-static const double INCISION = 45.0; // K per lifetime
-
 typedef struct Badlands {
     const Terrain *terrain;
     TerrainParams params; // resolved
@@ -27,7 +23,7 @@ typedef struct Badlands {
 
 static void set_rates(Badlands *b)
 {
-    double incision = INCISION * (double)b->params.evolution.streams;
+    double incision = TERRAIN_INCISION * (double)b->params.evolution.streams;
     b->rates = (LandscapeRates){.uplift = 6.0 * (double)b->params.relief,
                                 .incision = incision,
                                 .loose = incision,
@@ -95,15 +91,8 @@ static void add_lumps(const Badlands *b, Landscape *land, double height, double 
 
 static void roughen(const Badlands *b, Landscape *land)
 {
-    uint64_t key = random_key(b->terrain->seed, STREAM_PLATEAU);
-    double wavelength = 0.15 * (double)b->params.size;
-    for (int64_t i = 0; i < landscape_count(land); i++) {
-        int64_t column = i % land->side, row = i / land->side;
-        float x = (float)((double)column * land->cell / wavelength);
-        float z = (float)((double)row * land->cell / wavelength);
-        float n = sparse_noise_fractal(x, z, 6, 0.6f, 0.0f, key);
-        land->rock[i] = 0.02 * (double)b->params.relief * (double)(2.0f + 1.6f * n);
-    }
+    terrain_roughen(land, b->params.relief, 0.15 * (double)b->params.size, 1.6f,
+                    random_key(b->terrain->seed, STREAM_PLATEAU));
 }
 
 // One grid's share of the work: `lifetime` of cutting in `steps`. Mud creeps over as much of a
@@ -111,8 +100,8 @@ static void roughen(const Badlands *b, Landscape *land)
 static bool cut(Badlands *b, Landscape *land, double lifetime, int steps, const Run *run, Error *e)
 {
     double rill = fmax(CELLS_PER_RILL * land->cell, (double)b->params.badlands.rills);
-    double length = rill / SPACING, soil = (double)b->params.evolution.soil;
-    double creep = INCISION * length * length * soil, time = lifetime / steps;
+    double length = rill / TERRAIN_VALLEY_SPACING, soil = (double)b->params.evolution.soil;
+    double creep = TERRAIN_INCISION * length * length * soil, time = lifetime / steps;
     b->rates.least_area = 2.0 * land->cell * land->cell;
     add_lumps(b, land, 0.5 * land->cell, 7.0 * land->cell, run);
     for (int i = 0; i < steps; i++) {
@@ -131,8 +120,7 @@ static bool cut(Badlands *b, Landscape *land, double lifetime, int steps, const 
 static bool cut_rills(Badlands *b, Landscape *land, const Run *run, Error *e)
 {
     enum { STORMS = 4 };
-    const double drains =
-        50.0; // m^2: of a rill of the depth that is asked for, on a wall of 45 degrees
+    const double drains = 50.0; // m^2: of a rill of the depth asked for, on a wall of 45 degrees
     const double stands = 1.35; // walls of fresh rills, beside old ones
     double depth = (double)b->params.badlands.depth;
     LandscapeRates rates = b->rates;

@@ -30,6 +30,8 @@ typedef struct Form {
     // Land that processes wear, on a grid of its own, which the caller frees; fills in
     // terrain->ground if the form records it. NULL = the land is not worn so.
     Landscape *(*evolve)(Terrain *terrain, const Run *run, Error *e);
+    // Cells a side of that grid. NULL = evolution.cells, at most the resolution.
+    int (*cells)(const TerrainParams *params);
     // What else heights are looked up in. NULL = nothing.
     bool (*prepare)(Terrain *terrain, const Run *run, Error *e);
     // Makes room for what the field records beside heights and wetness. NULL = nothing.

@@ -11,9 +11,6 @@
 
 enum { CELLS_PER_VALLEY = 20 };
 
-// Measured: the distance from valley to valley over sqrt(D / K), see tests/objects/test_hills.c.
-static const double SPACING = 15.5;
-
 typedef struct Hills {
     const Terrain *terrain;
     TerrainParams params; // resolved
@@ -24,15 +21,15 @@ typedef struct Hills {
 static void set_rates(Hills *h)
 {
     const EvolutionParams *evolution = &h->params.evolution;
-    double length = (double)h->params.hills.spacing / SPACING;
-    double incision = 45.0 * (double)evolution->streams;
+    double length = (double)h->params.hills.spacing / TERRAIN_VALLEY_SPACING;
+    double incision = TERRAIN_INCISION * (double)evolution->streams;
     h->rates = (LandscapeRates){.uplift = 6.0 * (double)h->params.relief,
                                 .incision = incision,
                                 .loose = incision,
                                 .least_area = 6.0 * length * length,
                                 .repose = 1.0,
                                 .seed = random_key(h->terrain->seed, STREAM_WATER_WAYS)};
-    h->creep = 45.0 * length * length * (double)evolution->soil;
+    h->creep = TERRAIN_INCISION * length * length * (double)evolution->soil;
 }
 
 // Rock differs from place to place, so that no two hills are alike.
@@ -49,15 +46,8 @@ static void set_weakness(const Hills *h, Landscape *land, const Run *run)
 
 static void roughen(const Hills *h, Landscape *land)
 {
-    uint64_t key = random_key(h->terrain->seed, STREAM_PLATEAU);
-    double wavelength = 3.0 * (double)h->params.hills.spacing;
-    for (int64_t i = 0; i < landscape_count(land); i++) {
-        int64_t column = i % land->side, row = i / land->side;
-        float x = (float)((double)column * land->cell / wavelength);
-        float z = (float)((double)row * land->cell / wavelength);
-        float n = sparse_noise_fractal(x, z, 6, 0.6f, 0.0f, key);
-        land->rock[i] = 0.02 * (double)h->params.relief * (double)(2.0f + 0.3f * n);
-    }
+    terrain_roughen(land, h->params.relief, 3.0 * (double)h->params.hills.spacing, 0.3f,
+                    random_key(h->terrain->seed, STREAM_PLATEAU));
 }
 
 static bool evolve(const Hills *h, Landscape *land, double share, const Run *run, Error *e)

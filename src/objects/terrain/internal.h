@@ -280,6 +280,15 @@ typedef struct WeaknessNoise {
 void terrain_set_weakness(Landscape *land, const WeaknessNoise *noise, uint64_t key,
                           const Run *run);
 
+// Land that rises while streams cut it down and soil creeps away, of the forms hills and badlands:
+// K per lifetime where evolution.streams is 1, and, measured (tests/objects/test_hills.c), the
+// distance from valley to valley over sqrt(D / K).
+#define TERRAIN_INCISION 45.0
+#define TERRAIN_VALLEY_SPACING 15.5
+// roughen.c: the low ground on which that begins: a twenty-fifth of the relief high, and up and
+// down by `bumps` of half of that. wavelength: m.
+void terrain_roughen(Landscape *land, float relief, double wavelength, float bumps, uint64_t key);
+
 // walls.c: couloirs and scree by erosion.debris; also what is loose then, to field->wetness.
 bool terrain_carve_walls(const Terrain *terrain, HeightField *field, const Run *run, Error *e);
 
@@ -304,12 +313,17 @@ void terrain_open_outlets(const Terrain *terrain, int outlets, Landscape *land);
 Landscape *terrain_evolve_alps(Terrain *terrain, const Run *run, Error *e);
 // hills.c: the same of the form hills.
 Landscape *terrain_evolve_hills(Terrain *terrain, const Run *run, Error *e);
+// hills.c: cells a side that resolve what creeping soil leaves; nothing is smaller, so the land is
+// the same at any resolution.
+int terrain_hill_cells(const TerrainParams *params);
 // hills_measure.c: after terrain_evolve_hills.
 bool terrain_measure_hills(const Terrain *terrain, MeasureList *list, Error *e);
 // hills.c: fills in the wetness: 1 where the water of a hollow gathers, 0 on crests.
 bool terrain_wet_hollows(HeightField *field, Error *e);
 // badlands.c: the same of the form badlands.
 Landscape *terrain_evolve_badlands(Terrain *terrain, const Run *run, Error *e);
+// badlands.c: cells a side that resolve the rills, at most as fine as the land is sampled.
+int terrain_badland_cells(const TerrainParams *params);
 // badlands.c: fills in the wetness: 0 on crests, up to 0.5 in rills and gullies, 1 on washes.
 bool terrain_wet_washes(HeightField *field, Error *e);
 // badlands_measure.c: after terrain_evolve_badlands.

@@ -82,10 +82,7 @@ static void needs(const void *params, Needs *needs)
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
     needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
     if (terrain_evolves(terrain)) {
-        double cells = terrain->form == TERRAIN_HILLS ? terrain_hill_cells(terrain)
-                       : terrain->form == TERRAIN_BADLANDS
-                           ? terrain_badland_cells(terrain)
-                           : fmin(terrain->resolution, terrain->evolution.cells);
+        double cells = terrain_evolved_cells(terrain);
         needs_add(needs, "evolution.cells", cells * cells,
                   LANDSCAPE_BYTES + (terrain->form == TERRAIN_VOLCANO ? LAVA_BYTES
                                      : terrain->form == TERRAIN_COAST ? SHORE_BYTES

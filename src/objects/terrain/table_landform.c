@@ -272,9 +272,8 @@ static const Key BADLAND_KEYS[] = {
     {KEY_OF(BadlandParams, rills, "rills", KEY_FLOAT), .high = 1e4, .unit = "m",
      .doc = "Least distance from one rill to the next; 0 = as fine as the cells allow, 8 cells."},
     {KEY_OF(BadlandParams, depth, "depth", KEY_FLOAT), .high = 100, .unit = "m",
-     .doc =
-         "Depth that the last storms have cut rills that drain 50 square metres; larger ones are "
-         "deeper."},
+     .doc = "Depth to which the last storms cut rills that drain 50 square metres of a wall of 45 "
+            "degrees; larger ones are deeper. Gentler walls and what falls in leave about half."},
     {KEY_OF(BadlandParams, slope, "slope", KEY_FLOAT), .low = 20, .high = 80, .unit = "degrees",
      .doc = "The steepest wall of beds whose own `slope` is 45 degrees; others in proportion."},
     {KEY_OF(BadlandParams, wash, "wash", KEY_FLOAT), .high = 0.5f,

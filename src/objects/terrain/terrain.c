@@ -14,6 +14,14 @@ bool terrain_evolves(const TerrainParams *params)
     return terrain_form(params)->evolve;
 }
 
+int terrain_evolved_cells(const TerrainParams *params)
+{
+    const Form *form = terrain_form(params);
+    int most =
+        params->evolution.cells < params->resolution ? params->evolution.cells : params->resolution;
+    return form->cells ? form->cells(params) : most;
+}
+
 bool terrain_holds_lakes(const TerrainParams *params)
 {
     const Form *form = terrain_form(params);

@@ -250,11 +250,8 @@ bool terrain_tiles_end(const TerrainParams *params);
 // Does the land come from processes that wear it?
 bool terrain_evolves(const TerrainParams *params);
 
-// Of TERRAIN_HILLS: cells a side of the grid of the processes. It resolves what creeping soil
-// leaves; nothing is smaller, so the land is the same at any resolution.
-int terrain_hill_cells(const TerrainParams *params);
-// Of TERRAIN_BADLANDS: the same. It resolves the rills, at most as finely as the land is sampled.
-int terrain_badland_cells(const TerrainParams *params);
+// Cells a side of the grid of those processes.
+int terrain_evolved_cells(const TerrainParams *params);
 
 // Height of the lake, in the field's own space.
 float terrain_water_height(const TerrainParams *params, const HeightField *field);

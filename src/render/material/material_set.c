@@ -157,6 +157,7 @@ void material_set_free(MaterialSet *set)
     for (int i = 0; i < set->count; i++) {
         free(set->entry[i].table);
         free(set->entry[i].rough_tables);
+        free(set->entry[i].ripples);
         free(set->entry[i].layer);
     }
     free(set->entry);

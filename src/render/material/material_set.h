@@ -24,7 +24,8 @@ typedef struct MaterialEntry {
     GgxTable *rough_tables;     // owned, ROUGH_TABLES of them from roughness 0 to 1; NULL = `table`
                                 // is for all of the surface
     bool mapped;                // one of the pictures but opacity is given
-    int *layer;                 // owned: the numbers of its layers' materials; NULL = it has none
+    struct WindRipples *ripples; // owned; NULL without wind on water
+    int *layer;                  // owned: the numbers of its layers' materials; NULL = it has none
     // Borrowed from the cache; NULL = none.
     Texture *color, *opacity, *normal, *roughness, *transmittance, *displacement;
 } MaterialEntry;

@@ -80,20 +80,14 @@ static void roughen(Bsdf *b, float roughness2)
     b->roughness = sqrtf(clampf(fmaxf(alpha, b->alpha), 0.0f, 0.5f));
 }
 
-static void ripple(Bsdf *b, const Material *m, const SurfacePoint *point, Vec3 wo)
+static void ripple(Bsdf *b, const WindRipples *ripples, const SurfacePoint *point, Vec3 wo)
 {
-    float azimuth = m->wind_azimuth * RADIANS_PER_DEGREE;
-    RippleWind wind = {.speed = m->wind,
-                       .way = {-sinf(azimuth), cosf(azimuth)},
-                       .calm = m->calm,
-                       .gusts = m->gusts,
-                       .longest = m->pattern_scale};
     float cosine = fmaxf(fabsf(vec3_dot(surface_smooth_normal(point), wo)), 0.02f);
     float level = sqrtf(wo.x * wo.x + wo.z * wo.z);
     Vec2 view = level > 1e-6f ? (Vec2){wo.x / level, wo.z / level} : (Vec2){1.0f, 0.0f};
     RipplePixel pixel = {view, point->footprint / cosine, point->footprint};
     Vec2 place = {point->object_position.x, point->object_position.z};
-    RipplePoint at = wind_ripples_at(&wind, place, &pixel);
+    RipplePoint at = wind_ripples_at(ripples, place, &pixel);
     Vec3 slope = vec3(at.slope.x, 0.0f, at.slope.y);
     // The slope is the water's: seen from below, it turns the normal, which points down, alike.
     b->normal =
@@ -105,8 +99,8 @@ static void shade(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point
 {
     b->foam_color = entry->material.color2;
     if (!point->waves || !point->has_uv) {
-        if (entry->material.wind > 0.0f) {
-            ripple(b, &entry->material, point, wo);
+        if (entry->ripples) {
+            ripple(b, entry->ripples, point, wo);
         }
         if (point->foam > 0.0f) {
             Vec3 plume = river_plume(entry->material.absorption);
@@ -171,6 +165,25 @@ static bool draw(const Bsdf *b, Vec3 wo, const float u[3], Vec3 *wi)
     return dielectric_draw(b, wo, rest, wi);
 }
 
+static bool tabulate_ripples(MaterialEntry *entry, Error *e)
+{
+    const Material *m = &entry->material;
+    float azimuth = m->wind_azimuth * RADIANS_PER_DEGREE;
+    RippleWind wind = {.speed = m->wind,
+                       .way = {-sinf(azimuth), cosf(azimuth)},
+                       .calm = m->calm,
+                       .gusts = m->gusts,
+                       .longest = m->pattern_scale};
+    if (m->wind <= 0.0f) {
+        return true;
+    }
+    entry->ripples = memory_alloc(1, sizeof *entry->ripples, e);
+    if (entry->ripples) {
+        *entry->ripples = wind_ripples_of(&wind);
+    }
+    return entry->ripples;
+}
+
 static bool tabulate(MaterialEntry *entry, MaterialSet *set, Error *e)
 {
     (void)set;
@@ -181,7 +194,7 @@ static bool tabulate(MaterialEntry *entry, MaterialSet *set, Error *e)
         ggx_table_dielectric(&entry->rough_tables[i], fmaxf(roughness * roughness, LEAST_ALPHA),
                              entry->material.ior);
     }
-    return entry->rough_tables;
+    return entry->rough_tables && tabulate_ripples(entry, e);
 }
 
 static void describe(const Material *m, Appearance *a)

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stddef.h>
 
-enum { EACH = 7, GUSTS = 5, MOST_OCTAVES = 12, SEED_WAVES = 1511, SEED_GUSTS = 1607 };
+enum { GUSTS = 5, SEED_WAVES = 1511, SEED_GUSTS = 1607 };
 
 #define SHORTEST 0.017f // m: where surface tension takes over from gravity
 #define FETCH 1000.0f   // m
@@ -31,7 +31,7 @@ static float longest_of(const RippleWind *wind)
 static int octaves_of(float longest)
 {
     int octaves = (int)ceilf(log2f(longest / SHORTEST));
-    return octaves < 1 ? 1 : octaves > MOST_OCTAVES ? MOST_OCTAVES : octaves;
+    return octaves < 1 ? 1 : octaves > RIPPLE_OCTAVES ? RIPPLE_OCTAVES : octaves;
 }
 
 float wind_ripples_variance(const RippleWind *wind)
@@ -96,17 +96,13 @@ static float cover_of(const RippleWind *wind, Vec2 place, float width)
 
 // ---- ripples
 
-typedef struct Ripple {
-    Vec2 way;            // unit
-    float number, phase; // 1/m; radians
-} Ripple;
-
-// One of the EACH of an octave. Directions lie as the squared cosine about the wind's, within 80
+// One of those of an octave. Directions lie as the squared cosine about the wind's, within 80
 // degrees.
 static Ripple ripple_of(const RippleWind *wind, float longest, int octave, int i)
 {
     uint32_t hash = noise_square(octave, i, SEED_WAVES);
-    float step = ((float)i + noise_unit(hash, 0)) / EACH, u = 2.0f * noise_unit(hash, 1) - 1.0f;
+    float step = ((float)i + noise_unit(hash, 0)) / RIPPLE_EACH,
+          u = 2.0f * noise_unit(hash, 1) - 1.0f;
     float angle = 1.4f * u * (0.55f + 0.45f * u * u), c = cosf(angle), s = sinf(angle);
     return (Ripple){{wind->way.x * c - wind->way.y * s, wind->way.y * c + wind->way.x * s},
                     2.0f * PI_F / longest * exp2f((float)octave + step),
@@ -131,39 +127,52 @@ static void wander(Vec2 place, float wavelength, int octave, float shift[2])
     }
 }
 
-// Adds one octave, whose slopes have this variance, summed over both axes.
-static void add_octave(const RippleWind *wind, float longest, int octave, float variance,
-                       Vec2 place, const RipplePixel *pixel, RipplePoint *point)
+WindRipples wind_ripples_of(const RippleWind *wind)
 {
-    float wavelength = longest * exp2f(-(float)octave), shift[2], each = variance / EACH;
+    WindRipples ripples = {.wind = *wind, .longest = longest_of(wind)};
+    ripples.octaves = octaves_of(ripples.longest);
+    for (int i = 0; i < RIPPLE_EACH; i++) {
+        ripples.wander[i][0] = cosf(2.4f * (float)i);
+        ripples.wander[i][1] = sinf(2.4f * (float)i);
+        for (int octave = 0; octave < ripples.octaves; octave++) {
+            ripples.ripple[octave][i] = ripple_of(wind, ripples.longest, octave, i);
+        }
+    }
+    return ripples;
+}
+
+// Adds one octave, whose slopes have this variance, summed over both axes.
+static void add_octave(const WindRipples *ripples, int octave, float variance, Vec2 place,
+                       const RipplePixel *pixel, RipplePoint *point)
+{
+    float wavelength = ripples->longest * exp2f(-(float)octave), shift[2];
+    float each = variance / RIPPLE_EACH;
     if (pattern_detail(wavelength, pixel->width) <= 0.0f) {
         point->roughness2 += variance;
         return;
     }
     wander(place, wavelength, octave, shift);
-    for (int i = 0; i < EACH; i++) {
-        Ripple r = ripple_of(wind, longest, octave, i);
-        float seen = pattern_detail(2.0f * PI_F / r.number, extent_along(pixel, r.way));
+    for (int i = 0; i < RIPPLE_EACH; i++) {
+        const Ripple *r = &ripples->ripple[octave][i];
+        float seen = pattern_detail(2.0f * PI_F / r->number, extent_along(pixel, r->way));
         point->roughness2 += (1.0f - seen * seen) * each;
         if (seen > 0.0f) {
-            float phase = r.number * (place.x * r.way.x + place.y * r.way.y) + r.phase;
-            phase += shift[0] * cosf(2.4f * (float)i) + shift[1] * sinf(2.4f * (float)i);
+            float phase = r->number * (place.x * r->way.x + place.y * r->way.y) + r->phase;
+            phase += shift[0] * ripples->wander[i][0] + shift[1] * ripples->wander[i][1];
             float slope = seen * sqrtf(2.0f * each) * cosf(phase);
-            point->slope.x += slope * r.way.x;
-            point->slope.y += slope * r.way.y;
+            point->slope.x += slope * r->way.x;
+            point->slope.y += slope * r->way.y;
         }
     }
 }
 
-RipplePoint wind_ripples_at(const RippleWind *wind, Vec2 place, const RipplePixel *pixel)
+RipplePoint wind_ripples_at(const WindRipples *ripples, Vec2 place, const RipplePixel *pixel)
 {
-    RipplePoint point = {.cover = cover_of(wind, place, pixel->width)};
-    float longest = longest_of(wind), still = STILL_SHARE;
-    int octaves = octaves_of(longest);
-    float variance = wind_ripples_variance(wind) / (float)octaves;
-    for (int i = 0; i < octaves; i++, still *= STILL_FACTOR) {
-        add_octave(wind, longest, i, variance * lerpf(still, 1.0f, point.cover), place, pixel,
-                   &point);
+    RipplePoint point = {.cover = cover_of(&ripples->wind, place, pixel->width)};
+    float still = STILL_SHARE;
+    float variance = wind_ripples_variance(&ripples->wind) / (float)ripples->octaves;
+    for (int i = 0; i < ripples->octaves; i++, still *= STILL_FACTOR) {
+        add_octave(ripples, i, variance * lerpf(still, 1.0f, point.cover), place, pixel, &point);
     }
     return point;
 }

@@ -15,6 +15,25 @@ typedef struct RippleWind {
     float longest; // m: the longest ripples; 0 = those that the wind raises over 1 km
 } RippleWind;
 
+enum { RIPPLE_OCTAVES = 12, RIPPLE_EACH = 7 }; // at most; of an octave
+
+// A sine of them.
+typedef struct Ripple {
+    Vec2 way;            // unit
+    float number, phase; // 1/m; radians
+} Ripple;
+
+// A wind and its ripples, which are the same everywhere but for the phase.
+typedef struct WindRipples {
+    RippleWind wind;
+    int octaves;
+    float longest;                // m
+    float wander[RIPPLE_EACH][2]; // how the phases of an octave follow its two noises
+    Ripple ripple[RIPPLE_OCTAVES][RIPPLE_EACH];
+} WindRipples;
+
+WindRipples wind_ripples_of(const RippleWind *wind);
+
 // The part of a pixel on the water.
 typedef struct RipplePixel {
     Vec2 view;    // unit, in plan: the way along which it is long
@@ -29,7 +48,7 @@ typedef struct RipplePoint {
 } RipplePoint;
 
 // At a place in plan, m.
-RipplePoint wind_ripples_at(const RippleWind *wind, Vec2 place, const RipplePixel *pixel);
+RipplePoint wind_ripples_at(const WindRipples *ripples, Vec2 place, const RipplePixel *pixel);
 
 // Variance of all slopes, summed over both axes, where gusts ripple the water (Cox and Munk 1954,
 // J. Opt. Soc. Am. 44, 838: 0.003 + 0.00512 of the wind in m/s), and its mean over the lake, with
