@@ -103,8 +103,8 @@ static Vec3 soft_bed(const Strata *strata, float level, float footprint)
         float soft = 0.1f + 1.5f * softness * softness + 0.5f * footprint;
         soft = fminf(soft, 0.49f * thick);
         float away = side == 0 ? top - level : level - floor;
-        float share = 0.5f * smoothstepf(soft, -soft, away) * 2.0f;
-        color = vec3_lerp(color, strata->bed[next].color, fminf(share, 0.5f));
+        float share = fminf(smoothstepf(soft, -soft, away), 0.5f);
+        color = vec3_lerp(color, strata->bed[next].color, share);
     }
     return color;
 }
