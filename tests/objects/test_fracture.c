@@ -182,7 +182,7 @@ static void a_ball_falls_into_the_cells_of_its_cracks(void **state)
     const int64_t attractors[] = {40, 70, 200};
     int64_t before = 0;
     for (int i = 0; i < 3; i++) {
-        for (uint64_t seed = 1; seed <= 2; seed++) {
+        for (uint64_t seed = 1; seed <= (i == 2 ? 1 : 2); seed++) {
             FractureParams params = small_params(attractors[i]);
             params.resolution = i == 2 ? 96 : 64;
             Broken broken = break_up(&params, seed, 2);

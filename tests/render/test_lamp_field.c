@@ -264,7 +264,7 @@ static void a_hidden_lamp_is_not_kept_apart(void **state)
 
 static void assert_pictures_agree(bool curve)
 {
-    World *with = lit_sheet(32, true, curve), *without = lit_sheet(256, false, curve);
+    World *with = lit_sheet(32, true, curve), *without = lit_sheet(128, false, curve);
     Film *by_field = trace(with, 2, NULL), *by_paths = trace(without, 2, NULL);
     double a = mean_luminance(by_field), b = mean_luminance(by_paths);
     double error = hypot(mean_error(by_field), mean_error(by_paths));
@@ -272,7 +272,7 @@ static void assert_pictures_agree(bool curve)
         fail_msg("with the field %.5g, by paths %.5g +- %.2g", a, b, error);
     }
     // less noise at equal samples, though the lamp is only a few mean free paths deep
-    if (!(mean_error(by_field) * sqrt(32.0) < 0.8 * mean_error(by_paths) * sqrt(256.0))) {
+    if (!(mean_error(by_field) * sqrt(32.0) < 0.8 * mean_error(by_paths) * sqrt(128.0))) {
         fail_msg("errors: with the field %.3g, by paths %.3g", mean_error(by_field),
                  mean_error(by_paths));
     }

@@ -19,7 +19,8 @@ enum {
     NODES = CELL_NODES * CELL_NODES * CELL_NODES
 };
 
-// From a part's first corner to each of its eight.
+// From a part's first corner to each of its eight. Loops over it are unrolled: else GCC makes them
+// the inner ones and gathers what lies side by side.
 static const int corner_offset[8] = {0,     1,         CORNERS,         CORNERS + 1,
                                      SHEET, SHEET + 1, SHEET + CORNERS, SHEET + CORNERS + 1};
 
@@ -135,11 +136,11 @@ static void interpolate(const CloudGrid *g, int cx, int cy, int cz, Corners *out
 
 static void any_corner(const bool plane[PLANE], bool any[restrict LANES])
 {
-    for (int i = 0; i < LANES; i++) {
-        any[i] = plane[i];
-    }
+    memcpy(any, plane, LANES * sizeof *any);
+#pragma GCC unroll 8
     for (int k = 1; k < 8; k++) {
         const bool *corner = plane + corner_offset[k];
+#pragma omp simd
         for (int i = 0; i < LANES; i++) {
             any[i] = any[i] | corner[i];
         }
@@ -171,8 +172,10 @@ static void range_plane(const float plane[PLANE], Lanes *range)
     for (int i = 0; i < LANES; i++) {
         range->low[i] = range->high[i] = plane[i];
     }
+#pragma GCC unroll 8
     for (int k = 1; k < 8; k++) {
         const float *corner = plane + corner_offset[k];
+#pragma omp simd
         for (int i = 0; i < LANES; i++) {
             range->low[i] = smaller(range->low[i], corner[i]);
             range->high[i] = larger(range->high[i], corner[i]);
@@ -189,10 +192,12 @@ static void range_share(const Roughness *rough, const Corners *c, const Lanes *b
         share->low[i] = 1.0f;
         share->high[i] = 0.0f;
     }
+#pragma GCC unroll 8
     for (int k = 0; k < 8; k++) {
         const float *inside = c->inside + corner_offset[k], *soft = c->softness + corner_offset[k];
         const float *billows = c->billows + corner_offset[k];
         const float *per_edge = c->per_edge + corner_offset[k];
+#pragma omp simd
         for (int i = 0; i < LANES; i++) {
             float high =
                 billows[i] * (r.billow[0] * billow->high[i] + r.billow[1] * small.high.billow) +
