@@ -157,6 +157,7 @@ int64_t count_grids(const GridFile *grids)
     return static_cast<int64_t>(own(grids).grids.size());
 }
 
+// cppcheck-suppress passedByValue ; as C calls it
 bool add_vectors(GridFile *grids, const char *name, Aabb bounds, float voxel, GridVectors vectors,
                  const void *context, const Run *run, Error *e)
 {
@@ -174,6 +175,7 @@ bool add_vectors(GridFile *grids, const char *name, Aabb bounds, float voxel, Gr
     });
 }
 
+// cppcheck-suppress passedByValue ; as C calls it
 bool add_density(GridFile *grids, const char *name, Aabb bounds, float voxel, GridDensity density,
                  const void *context, const Run *run, Error *e)
 {
