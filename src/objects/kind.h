@@ -101,6 +101,10 @@ typedef struct Kind {
     // Heights of a terrain, in the object's own space; NULL = the kind is no terrain.
     HeightField *(*heights)(const void *params, const Grown *grown, const Run *run, Error *e);
 
+    // Lists where its surface is seen again beyond it, ring by ring, and returns how many these
+    // are; copy: NULL = count them. NULL = it has no copies.
+    int (*surface_copies)(const void *params, struct SurfaceCopy *copy);
+
     // Fills in how the land is cut into tiles, but for the seed; false = it is not. NULL = never.
     bool (*tiles)(const void *params, TileGrid *grid);
 

@@ -13,6 +13,7 @@ typedef struct Surface {
     float size;
     Mesh *mesh; // of `over`; NULL = not made yet
     ShapeSurface over;
+    SurfaceCopy *copy;       // of `over`; owned
     const HeightField *land; // NULL = it is no terrain
     HeightField *own_land;   // that one, unless a placed part owns it
 } Surface;
@@ -44,6 +45,7 @@ void surfaces_free(Surfaces *surfaces)
         for (int i = 0; i < surfaces->scene->object_count; i++) {
             nearest_free(surfaces->of[i].nearest);
             mesh_free(surfaces->of[i].mesh);
+            free(surfaces->of[i].copy);
             height_field_free(surfaces->of[i].own_land);
         }
         free(surfaces->of);
@@ -66,7 +68,8 @@ static bool make(Surface *surface, const Geometry *geometry, bool mesh, const Ru
     }
     if (surface->nearest && mesh) {
         surface->mesh = geometry_surface(geometry, e);
-        surface->over = (ShapeSurface){surface->mesh, find_nearest, surface->nearest};
+        surface->over = (ShapeSurface){
+            .mesh = surface->mesh, .nearest = find_nearest, .user = surface->nearest};
     }
     return surface->nearest && (surface->mesh || !mesh);
 }
@@ -135,12 +138,30 @@ const Nearest *surfaces_of(Surfaces *surfaces, int index, float *size, const Run
     return surfaces->of[index].nearest;
 }
 
+// Lists where the object's surface is seen again.
+static bool find_copies(Surface *surface, const SceneObject *object, Error *e)
+{
+    const Kind *kind = object->kind;
+    int count = kind->surface_copies ? kind->surface_copies(object->params, NULL) : 0;
+    if (count == 0 || surface->copy) {
+        return true;
+    }
+    surface->copy = memory_alloc(count, sizeof *surface->copy, e);
+    if (surface->copy) {
+        kind->surface_copies(object->params, surface->copy);
+        surface->over.copy = surface->copy;
+        surface->over.copy_count = count;
+    }
+    return surface->copy;
+}
+
 const ShapeSurface *surfaces_over(Surfaces *surfaces, int index, const Run *run, Error *e)
 {
-    if (!prepare(surfaces, index, true, run, e)) {
+    Surface *surface = &surfaces->of[index];
+    if (!prepare(surfaces, index, true, run, e) ||
+        !find_copies(surface, &surfaces->scene->objects[index], e)) {
         return NULL;
     }
-    const Surface *surface = &surfaces->of[index];
     if (!(mesh_area(surface->mesh) > 0.0)) {
         error_set(e, ERROR_INPUT,
                   "the object '%s' has no surface to grow over: its curves, leaves and other "

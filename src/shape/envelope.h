@@ -47,12 +47,20 @@ typedef struct EnvelopeParams {
     float voxel;         // m, voxel size of level sets; 0 = largest extent / 128
 } EnvelopeParams;
 
+// One of the places around it where a surface is seen again.
+typedef struct SurfaceCopy {
+    Transform place; // from the surface to its copy
+    int ring;        // 1 = next to it
+} SurfaceCopy;
+
 // A surface that exists already; borrowed.
 typedef struct ShapeSurface {
     const Mesh *mesh; // triangles with normals
     // Moves p to the nearest point of the surface and sets the unit normal there. Thread-safe.
     void (*nearest)(const void *user, Vec3 *p, Vec3 *normal);
     const void *user;
+    const SurfaceCopy *copy; // beyond it; borrowed; the mesh holds the surface alone
+    int copy_count;
 } ShapeSurface;
 
 typedef struct Envelope Envelope;

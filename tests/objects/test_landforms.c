@@ -120,6 +120,32 @@ static void more_resolution_shows_the_same_land(void **state)
     height_field_free(b);
 }
 
+// What things stand on beyond the square is what is drawn there, the nearest first.
+static void lists_where_it_is_copied(const TerrainParams *params, const Part *around)
+{
+    SurfaceCopy copy[24];
+    assert_int_equal(kind_terrain.surface_copies(params, NULL), 8);
+    assert_int_equal(kind_terrain.surface_copies(params, copy), 8);
+    for (int i = 0; i < 8; i++) {
+        int same = 0;
+        for (int k = 0; k < 8; k++) {
+            same += memcmp(&copy[i].place, &around->instance[k], sizeof(Transform)) == 0;
+        }
+        assert_int_equal(same, 1);
+        assert_int_equal(copy[i].ring, 1);
+    }
+    TerrainParams more = *params;
+    more.beyond = 2;
+    assert_int_equal(kind_terrain.surface_copies(&more, copy), 24);
+    for (int i = 0; i < 24; i++) {
+        assert_int_equal(copy[i].ring, i < 8 ? 1 : 2);
+    }
+    more.form = TERRAIN_COAST; // along the shore and inland alone
+    assert_int_equal(kind_terrain.surface_copies(&more, NULL), 2 * 5 - 1);
+    more.form = TERRAIN_DELTA;
+    assert_int_equal(kind_terrain.surface_copies(&more, NULL), 0);
+}
+
 // Copies around the square meet at its borders: a mirrored copy has its border's points.
 static void copies_continue_the_land(void **state)
 {
@@ -158,6 +184,7 @@ static void copies_continue_the_land(void **state)
         }
     }
     assert_true(met > 2);
+    lists_where_it_is_copied(&params, around);
     geometry_clear(&geometry);
     grown_clear(&grown);
 }

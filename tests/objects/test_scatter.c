@@ -200,6 +200,52 @@ static double crowd(const ThingPlaces *places)
     return 2.0 * (double)near / (double)places->count;
 }
 
+// On copies of the surface within the rings asked for each place is met again, where the copy has
+// it; another individual stands there.
+static void goes_on_over_copies_of_the_surface(void **state)
+{
+    (void)state;
+    Mesh *ball = ball_mesh(20, NULL);
+    assert_non_null(ball);
+    const Transform mirror =
+        transform_from_axes(vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(4, 0, 0));
+    const Transform below = transform_compose(vec3(0, -0.5f, 3), vec3(0, 0, 0), vec3(1, 1, 1));
+    const SurfaceCopy copy[] = {{mirror, 1}, {below, 1}, {transform_identity(), 2}};
+    ShapeSurface surface = {.mesh = ball, .copy = copy, .copy_count = 3};
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = of_things(&thing, 1);
+    scatter.things.variants = 10;
+    scatter.count = 400;
+    scatter.radius = 0.0f;
+    scatter.align = 1.0f;
+    Run run = run_default();
+    Recipe recipe = {.seed = 5, .run = &run, .surface = &surface};
+    ThingPlaces alone = places_of(&scatter, &recipe, &(Surroundings){0});
+    assert_int_equal(alone.count, 400);
+    scatter.beyond = 1;
+    ThingPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    assert_int_equal(places.count, 3 * 400);
+    int others = 0;
+    for (int64_t i = 0; i < 400; i++) {
+        const Transform *at = &places.place[3 * i];
+        assert_memory_equal(at, &alone.place[i], sizeof *at);
+        assert_int_equal(places.thing[3 * i], alone.thing[i]);
+        for (int k = 0; k < 2; k++) {
+            const Transform *there = &at[1 + k];
+            Vec3 up = vec3_normalize(transform_vector(at, vec3(0, 1, 0)));
+            Vec3 up_there = vec3_normalize(transform_vector(there, vec3(0, 1, 0)));
+            assert_true(vec3_distance(foot(there), transform_point(&copy[k].place, foot(at))) <
+                        1e-5f);
+            assert_true(vec3_distance(up_there, transform_vector(&copy[k].place, up)) < 1e-5f);
+            others += places.thing[3 * i + 1 + k] != places.thing[3 * i];
+        }
+    }
+    assert_in_range(others, 640, 790); // 9 of 10
+    thing_places_free(&alone);
+    thing_places_free(&places);
+    mesh_free(ball);
+}
+
 static void clumps(void **state)
 {
     (void)state;
@@ -725,6 +771,7 @@ int main(void)
         cmocka_unit_test(keeps_to_slopes_and_shares),
         cmocka_unit_test(fills_a_small_patch_of_a_surface),
         cmocka_unit_test(fills_a_small_patch_of_a_wide_face),
+        cmocka_unit_test(goes_on_over_copies_of_the_surface),
         cmocka_unit_test(clumps),
         cmocka_unit_test(keeps_to_its_side_of_the_shore),
         cmocka_unit_test(a_depth_decides_alone),

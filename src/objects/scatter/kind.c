@@ -18,7 +18,7 @@ static const char *further_material(const void *params, int index)
 static void needs(const void *params, Needs *needs)
 {
     const ScatteringParams *scatter = params;
-    things_need(&scatter->things, scatter->count, needs);
+    things_need(&scatter->things, scattering_most(scatter), needs);
 }
 
 static void describe(const void *params, char *text, size_t size)
@@ -32,7 +32,7 @@ static void describe(const void *params, char *text, size_t size)
 static int64_t copies(const void *params)
 {
     const ScatteringParams *scatter = params;
-    return scatter->count;
+    return scattering_most(scatter);
 }
 
 static const Key NO_MATERIALS[] = {{0}};

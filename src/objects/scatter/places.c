@@ -26,7 +26,8 @@ enum {
     STREAM_WHERE = 11,
     STREAM_TILT = 12,
     STREAM_TILT_AZIMUTH = 13,
-    STREAM_STRETCH = 14
+    STREAM_STRETCH = 14,
+    STREAM_COPIES = 15 // + i: of the place on copy i of the surface
 };
 
 enum { TRIES = 40 }; // for each copy, at most
@@ -42,6 +43,7 @@ typedef struct Search {
     Where where;                 // maps that places are chosen by
     const HeightField *wet; // the land that tells where its water is; NULL = unknown, or by_depth
     bool by_depth;          // conditions on the water's depth decide
+    int copies;             // of the surface, on which they stand, too
     uint64_t seed;
 } Search;
 
@@ -329,6 +331,15 @@ static bool has_depth_condition(const ScatteringParams *params)
 
 // ---- all of them
 
+int scatter_copies(const ScatteringParams *params, const ShapeSurface *surface)
+{
+    int count = 0;
+    while (surface && count < surface->copy_count && surface->copy[count].ring <= params->beyond) {
+        count++;
+    }
+    return count;
+}
+
 static bool search_begin(Search *s, const Recipe *recipe, Error *e)
 {
     s->area = s->surface ? sum_areas(s->surface->mesh, s->params, e) : NULL;
@@ -337,11 +348,38 @@ static bool search_begin(Search *s, const Recipe *recipe, Error *e)
     return (s->area || !s->surface) && (s->taken || !spaced) && draw_maps(s, recipe, e);
 }
 
+// One of the thing's individuals.
+static int variant_of(const Search *s, int thing, uint64_t key)
+{
+    int variants = s->params->things.variants;
+    return thing * variants + (int)(random_unit(random_key(key, STREAM_VARIANT)) * (float)variants);
+}
+
+static void add_place(ThingPlaces *places, const ScatteringParams *params, const Spot *spot,
+                      int thing)
+{
+    places->thing[places->count] = thing;
+    places->place[places->count++] = stand(params, spot);
+}
+
+// The same place on the surface's copies, where another individual stands.
+static void add_beyond(ThingPlaces *places, const Search *s, const Spot *spot, int thing)
+{
+    for (int i = 0; i < s->copies; i++) {
+        const Transform *copy = &s->surface->copy[i].place;
+        uint64_t key = random_key(spot->key, STREAM_COPIES + (uint64_t)i);
+        // a mirror keeps lengths, so that it carries normals as it does directions
+        Spot there = {transform_point(copy, spot->p), transform_vector(copy, spot->normal), key};
+        add_place(places, s->params, &there, variant_of(s, thing, key));
+    }
+}
+
 static bool search(const Search *s, ThingPlaces *places, const Run *run, Error *e)
 {
     const ScatteringParams *params = s->params;
     uint64_t seed = random_key(s->seed, STREAM_PLACES);
-    for (int64_t i = 0; i < TRIES * params->count && places->count < params->count; i++) {
+    int64_t settled = 0;
+    for (int64_t i = 0; i < TRIES * params->count && settled < params->count; i++) {
         if (!run_goes_on(run, i, e)) {
             return false;
         }
@@ -357,14 +395,13 @@ static bool search(const Search *s, ThingPlaces *places, const Run *run, Error *
             return false;
         }
         if (taken) {
-            float u = random_unit(random_key(key, STREAM_VARIANT));
             if (params->afloat) {
                 spot.p.y = surface_over(s, spot.p);
                 spot.normal = vec3(0, 1, 0);
             }
-            places->thing[places->count] =
-                thing * params->things.variants + (int)(u * (float)params->things.variants);
-            places->place[places->count++] = stand(params, &spot);
+            add_place(places, params, &spot, variant_of(s, thing, key));
+            add_beyond(places, s, &spot, thing);
+            settled++;
         }
     }
     return true;
@@ -377,9 +414,10 @@ bool scatter_places_init(ThingPlaces *places, const ScatteringParams *params, co
         .params = params, .around = around, .surface = recipe->surface, .seed = recipe->seed};
     s.land = recipe->land;
     s.by_depth = has_depth_condition(params);
+    s.copies = scatter_copies(params, s.surface);
     s.wet = recipe->land && recipe->land->water && !s.by_depth ? recipe->land : NULL;
-    bool done = thing_places_alloc(places, params->count, e) && search_begin(&s, recipe, e) &&
-                search(&s, places, recipe->run, e);
+    bool done = thing_places_alloc(places, params->count * (1 + s.copies), e) &&
+                search_begin(&s, recipe, e) && search(&s, places, recipe->run, e);
     point_hash_free(s.taken);
     where_free(&s.where);
     free(s.area);

@@ -11,6 +11,7 @@ typedef struct ScatteringParams {
     Vec3 center;       // m: of the disc on the land, or of the ball that cuts the surface
     float inner;       // m: none nearer to the centre
     float radius;      // m: none farther from it; 0 = the whole surface
+    int beyond;        // rings of the surface's copies on which copies stand as on itself
     float clumping;    // 0 = even .. 1 = in patches
     float clump_size;  // m, from patch to patch
     float spacing;     // m: least distance between two places; 0 = any
@@ -30,8 +31,15 @@ typedef struct ScatteringParams {
 
 ScatteringParams scattering_params_default(void);
 
+// Most copies that it may ask for: those on the surface's copies are among them.
+int64_t scattering_most(const ScatteringParams *params);
+
+// Number of the surface's copies that are in the rings asked for; surface: NULL = the land.
+int scatter_copies(const ScatteringParams *params, const ShapeSurface *surface);
+
 // On the recipe's surface, or else on the land; outside of water or in it. Fewer than params->count
-// if there is no room for more. Clear with thing_places_free, also on failure.
+// if there is no room for more, and as many again on each copy of the surface. Clear with
+// thing_places_free, also on failure.
 bool scatter_places_init(ThingPlaces *places, const ScatteringParams *params, const Recipe *recipe,
                          const Surroundings *around, Error *e);
 

@@ -30,6 +30,10 @@ static const Key SCATTER_KEYS[] = {
      .doc = "Maximum distance from the centre; on an object 0 = all of it."},
     {KEY_OF(ScatteringParams, inner, "inner", KEY_FLOAT), .high = 1e6, .unit = "m",
      .doc = "Minimum distance from the centre."},
+    {KEY_OF(ScatteringParams, beyond, "beyond", KEY_INT), .high = 8,
+     .doc = "Rings of the copies around a terrain (its key beyond) on which the copies stand, too, "
+            "as on the terrain itself: each of them as many again, 8 times in the first ring, 16 "
+            "times in the second. Not where the land is drawn of tiles."},
     {KEY_OF(ScatteringParams, clumping, "clumping", KEY_FLOAT), .high = 1,
      .doc = "Distribution: 0 = uniform, 1 = each thing in patches of its own."},
     {KEY_OF(ScatteringParams, clump_size, "clump_size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
@@ -67,6 +71,12 @@ static const Key SCATTER_KEYS[] = {
     {0},
 };
 
+int64_t scattering_most(const ScatteringParams *params)
+{
+    int64_t across = 2 * params->beyond + 1;
+    return across * across * params->count;
+}
+
 static bool check_range(const Mapping *mapping, const char *key, const float range[2])
 {
     return range[0] <= range[1] ||
@@ -85,6 +95,11 @@ static bool check_scatter(const Mapping *mapping, void *params)
     }
     if (!scatter->on && !(scatter->radius > 0.0f)) {
         return mapping_fail(mapping, "radius", " is 0 m; on the land it must be greater");
+    }
+    if (scatter->beyond > 0 && !scatter->on) {
+        return mapping_fail(mapping, "beyond",
+                            " is %d; 'on' must name the terrain whose copies it is about",
+                            scatter->beyond);
     }
     if (scatter->afloat && !scatter->in_water) {
         return mapping_fail(mapping, "afloat", " is true; then in_water must be true, too");

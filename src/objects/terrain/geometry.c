@@ -65,6 +65,28 @@ static bool is_copied(const TerrainParams *params, int column, int row)
     return (column != 0 || row != 0) && (seaward == 0 || seaward == -1);
 }
 
+int terrain_surface_copies(const void *given, SurfaceCopy *copy)
+{
+    const TerrainParams *params = given;
+    int count = 0;
+    bool copied = !terrain_form(params)->beyond && !params->tiles.drawn;
+    for (int ring = 1; copied && ring <= params->beyond; ring++) {
+        int side = 2 * ring + 1;
+        for (int i = 0; i < side * side; i++) {
+            int column = i % side - ring, row = i / side - ring;
+            bool of_ring = abs(column) == ring || abs(row) == ring;
+            if (!of_ring || !is_copied(params, column, row)) {
+                continue;
+            }
+            if (copy) {
+                copy[count] = (SurfaceCopy){terrain_copy(params, column, row), ring};
+            }
+            count++;
+        }
+    }
+    return count;
+}
+
 bool terrain_add_copies(Mesh *mesh, const TerrainParams *params, const Placing *placing, int role,
                         Error *e)
 {

@@ -343,5 +343,6 @@ const Kind kind_terrain = {
     .geometry = terrain_geometry,
     .measure = terrain_measure,
     .heights = terrain_heights,
+    .surface_copies = terrain_surface_copies,
     .tiles = tiles,
     .sprays = true};
