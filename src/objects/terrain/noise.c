@@ -158,8 +158,9 @@ static float sum_around(Around *a, float x, float y)
 {
     float value[9 * MOST_KERNELS];
     move_to_cell(a, cell_at(x), cell_at(y));
+    const int all = a->end[8];
 #pragma omp simd
-    for (int i = 0; i < a->end[8]; i++) {
+    for (int i = 0; i < all; i++) {
         float dx = x - a->column_of[i] - a->x[i], dy = y - a->row_of[i] - a->y[i];
         float r2 = dx * dx + dy * dy, own = a->weight[i] * kernel(r2);
         value[i] = r2 < 1.0f ? own : 0.0f;
@@ -167,8 +168,8 @@ static float sum_around(Around *a, float x, float y)
     float sum = 0.0f;
     for (int k = 0, i = 0; k < 9; k++) {
         float of_cell = 0.0f;
-        for (; i < a->end[k]; i++) {
-            of_cell += value[i]; // cppcheck-suppress uninitvar ; end[k] <= end[8]
+        for (; i < a->end[k] && i < all; i++) {
+            of_cell += value[i]; // cppcheck-suppress uninitvar ; i < all
         }
         sum += of_cell;
     }
