@@ -287,7 +287,7 @@ static bool raise_sills(const Terrain *terrain, HeightField *field, const Run *r
         for (int column = 0; column < field->columns && !run_is_cancelled(run); column++) {
             int64_t i = (int64_t)row * field->columns + column;
             Vec2 at = sample_at(field, row, column);
-            int32_t node;
+            int32_t node = 0;
             float away =
                 terrain->bank[i] ? trough_envelope_at(terrain->shore, at.x, at.y, &node) : 0.0f;
             if (away < 0.0f) {
