@@ -214,7 +214,8 @@ static bool run_out(DeltaLand *land, const uint8_t *known, Error *e)
         for (int64_t i = 0; i < count; i++) {
             next[i] = land->load[i];
             if (known[i] != 1) {
-                float column = (float)(i % d->columns), row = (float)(i / d->columns);
+                int64_t line = i / d->columns;
+                float column = (float)(i % d->columns), row = (float)line;
                 float before = load_at(d, land->load, column - x[i], row - z[i]);
                 float beside =
                     0.5f * (load_at(d, land->load, column - x[i] - z[i], row - z[i] + x[i]) +
