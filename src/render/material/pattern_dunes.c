@@ -17,7 +17,7 @@ static const struct {
     float patch;          // m: they come and go over this length
     float common;         // the larger, the more ground they cover
 } SIZE[SIZES] = {
-    {1.0f, 1.0f, 3.5f, 0.75f}, {11.0f, 4.0f, 24.0f, -0.3f}, {85.0f, 5.0f, 110.0f, -0.3f}};
+    {1.0f, 1.0f, 5.0f, 0.45f}, {11.0f, 4.0f, 24.0f, -0.1f}, {85.0f, 5.0f, 110.0f, -0.3f}};
 
 typedef struct Relief {
     float height; // of the ripples alone, times how much of them is seen
@@ -71,7 +71,7 @@ static SandRelief slides(const SurfacePoint *point)
 
 void pattern_dunes(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    const float thick = 0.035f; // m: of a tongue
+    const float thick = 0.05f; // m: of a tongue
     float wind_x = 2.0f * point->site.x - 1.0f, wind_z = 2.0f * point->site.y - 1.0f;
     float depth = sqrtf(wind_x * wind_x + wind_z * wind_z);
     SurfacePoint place = *point;
@@ -92,7 +92,7 @@ void pattern_dunes(const Material *m, const SurfacePoint *point, PatternShade *s
     float blown = (1.0f - face) * (1.0f - bare), pale = smoothstepf(0.75f, 1.0f, depth);
     Vec3 sand = vec3_scale(shade->color, 0.90f + 0.16f * pale + 0.05f * broad.value);
     // Coarse, darker grains gather on the crests of ripples; the coarse toes of flows look paler.
-    sand = vec3_scale(sand, 1.0f - 0.09f * blown * ripple.height + 0.1f * face * slide.tone);
+    sand = vec3_scale(sand, 1.0f - 0.09f * blown * ripple.height + 0.18f * face * slide.tone);
     sand = vec3_scale(sand, 1.0f + 0.16f * clampf(grain.value, -1.5f, 1.5f));
     PatternOctaves stones = pattern_octaves(&place, 0.25f, 5, 0.75f, 1.0f, 251);
     Vec3 plain = vec3_scale(m->color2, clampf(1.0f + 0.35f * stones.value, 0.5f, 1.5f));
