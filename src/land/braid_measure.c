@@ -12,24 +12,48 @@ static bool is_wet(const BraidLevel *level, int64_t i)
     return level->ring[i] == 0;
 }
 
-// Runs of wet cells in a row; *active: of those in which gravel moves.
-static int count_threads(const Braid *b, const BraidLevel *level, int row, int *active)
+// The threads of water across a row.
+typedef struct Section {
+    int threads, active;  // active: in which gravel moves
+    int64_t wide, widest; // cells: of all threads; of the widest
+    double flow, trunk;   // m^2/s, cells' sum: of all threads; of the widest
+} Section;
+
+static void add_thread(Section *s, int64_t wide, double flow, bool moves)
 {
-    int threads = 0, run = 0;
+    if (wide < NARROWEST) {
+        return;
+    }
+    s->threads++;
+    s->active += moves;
+    s->wide += wide;
+    s->flow += flow;
+    if (wide > s->widest) {
+        s->widest = wide;
+        s->trunk = flow;
+    }
+}
+
+static Section section_of(const Braid *b, const BraidLevel *level, int row)
+{
+    Section s = {0};
+    int64_t run = 0;
+    double flow = 0.0;
     bool moves = false;
     for (int column = 0; column <= b->side; column++) {
         int64_t i = (int64_t)row * b->side + column;
         if (column < b->side && is_wet(level, i)) {
             run++;
+            flow += (double)b->flow_z[i];
             moves = moves || b->shear[i] > (float)BRAID_THRESHOLD;
             continue;
         }
-        threads += run >= NARROWEST;
-        *active += run >= NARROWEST && moves;
+        add_thread(&s, run, flow, moves);
         run = 0;
+        flow = 0.0;
         moves = false;
     }
-    return threads;
+    return s;
 }
 
 // The extent of a dry piece of ground.
@@ -138,19 +162,36 @@ static double fall_of(const Braid *b, const BraidLevel *level)
     return n > 1.0 ? -(zh - z * h / n) / (zz - z * z / n) : (double)NAN;
 }
 
+// Means of all sections, and of those with water.
+static BraidMeasures measure_sections(const Braid *b, const BraidLevel *level)
+{
+    BraidMeasures m = {0};
+    int wet = 0;
+    for (int row = 0; row < b->side; row++) {
+        Section s = section_of(b, level, row);
+        m.threads += s.threads;
+        m.active += s.active;
+        if (s.threads > 0 && s.flow > 0.0) {
+            m.trunk_share += s.trunk / s.flow;
+            m.trunk_width += (double)s.widest * s.threads / (double)s.wide;
+            wet++;
+        }
+    }
+    m.threads /= b->side;
+    m.active /= b->side;
+    m.trunk_share = wet > 0 ? m.trunk_share / wet : (double)NAN;
+    m.trunk_width = wet > 0 ? m.trunk_width / wet : (double)NAN;
+    return m;
+}
+
 bool braid_measure(const Braid *b, const BraidLevel *level, BraidMeasures *m, Error *e)
 {
-    int threads = 0, active = 0;
     int64_t wet = 0;
-    for (int row = 0; row < b->side; row++) {
-        threads += count_threads(b, level, row, &active);
-    }
     for (int64_t i = 0; i < braid_count(b); i++) {
         wet += is_wet(level, i);
     }
-    *m = (BraidMeasures){.threads = (double)threads / b->side,
-                         .active = (double)active / b->side,
-                         .wet = (double)wet * b->cell / (b->width * b->side),
-                         .fall = fall_of(b, level)};
+    *m = measure_sections(b, level);
+    m->wet = (double)wet * b->cell / (b->width * b->side);
+    m->fall = fall_of(b, level);
     return measure_bars(b, level, &m->bar_ratio, e);
 }

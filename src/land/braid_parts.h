@@ -11,6 +11,7 @@
 #define BRAID_CORRECTION 0.02 // share of a wrong discharge that an update corrects
 #define BRAID_CHANGE 0.1      // see braid_change
 #define BRAID_DEFLECTION 0.03 // of the load by the slope across it, times the slope of the valley
+#define BRAID_SPIRAL 11.0     // of the load in bends, times depth over radius: Rozovskii 1957
 #define BRAID_REFERENCE 3.0   // shear of the reference load
 #define BRAID_DRY 0.01        // mean depths: less water does not flow
 

@@ -1,5 +1,5 @@
-// Braided rivers: even flow, still water, volume, how a bump of gravel moves, narrow and wide
-// rivers, threads, resolutions.
+// Braided rivers: even flow, still water, volume, how a bump of gravel moves and bends turn it,
+// narrow and wide rivers, the widest thread, threads, resolutions.
 #include "land/braid_measure.h"
 #include "land/braid_parts.h"
 #include "making.h"
@@ -196,12 +196,68 @@ static void narrow_rivers_stay_single_and_wide_ones_braid(void **state)
         flow(rivers[n], 0.4, 3.0, false, 2);
     }
     BraidMeasures one = measured(narrow), many = measured(wide);
-    if (!(one.threads > 0.95 && one.threads < 1.1 && many.threads > 2.5)) {
+    // Bars at the sides of the narrow one cut off a little water here and there.
+    if (!(one.threads > 0.95 && one.threads < 1.25 && many.threads > 2.5)) {
         fail_msg("%g threads in a narrow river, %g in a wide one", one.threads, many.threads);
     }
     assert_true(many.wet < 0.9 && fabs(many.fall - SLOPE) < 0.1 * SLOPE);
     braid_free(narrow);
     braid_free(wide);
+}
+
+// Three threads of 2, 8 and 4 cells; the flow of a cell is 1, 3 and 1 m^2/s. A single cell of water
+// is no thread.
+static void the_trunk_is_the_widest_thread(void **state)
+{
+    (void)state;
+    const int first[] = {3, 8, 20, 28}, wide[] = {2, 8, 4, 1};
+    const float each[] = {1.0f, 3.0f, 1.0f, 5.0f};
+    Braid *b = braid_new(32, 32.0, 32.0, SLOPE, MEAN, NULL);
+    for (int n = 0; n < 4; n++) {
+        for (int64_t k = 0; k < 32 * (int64_t)wide[n]; k++) {
+            int64_t i = k / wide[n] * 32 + first[n] + k % wide[n];
+            b->depth[i] = (float)MEAN;
+            b->flow_z[i] = each[n];
+        }
+    }
+    BraidMeasures m = measured(b);
+    assert_true(m.threads == 3.0 && m.active == 0.0);
+    assert_true(fabs(m.trunk_share - 24.0 / 30.0) < 1e-9);
+    assert_true(fabs(m.trunk_width - 8.0 / (14.0 / 3.0)) < 1e-9);
+    braid_free(b);
+}
+
+// On a ring of flow the load heads inward by BRAID_SPIRAL * depth / radius, whichever way it turns;
+// straight flow carries it along itself.
+static void bends_turn_the_load_inward(void **state)
+{
+    (void)state;
+    enum { SIDE = 64 };
+    for (int way = -1; way <= 1; way++) {
+        Braid *b = braid_new(SIDE, SIDE * 20.0, SIDE * 20.0, SLOPE, MEAN, NULL);
+        for (int64_t i = 0; i < braid_count(b); i++) {
+            int64_t row = i / SIDE;
+            double x = (double)(i % SIDE) - 31.5, z = (double)row - 31.5;
+            b->depth[i] = (float)MEAN;
+            b->flow_x[i] = i % SIDE > 0 && way != 0 ? (float)(-way * 0.1 * z) : 0.0f;
+            b->flow_z[i] = way != 0 ? (float)(way * 0.1 * x) : 2.0f;
+        }
+        braid_begin(b);
+        braid_find_load(b, 1);
+        const float *along = b->load, *down = along + braid_count(b);
+        const int64_t place[] = {32 * SIDE + 52, 32 * SIDE + 14, 50 * SIDE + 32, 45 * SIDE + 45};
+        for (int n = 0; n < 4; n++) {
+            int64_t row = place[n] / SIDE;
+            double x = (double)(place[n] % SIDE) - 31.5, z = (double)row - 31.5;
+            double radius = sqrt(x * x + z * z), lx = (double)along[place[n]],
+                   lz = (double)down[place[n]];
+            double inward = -(lx * x + lz * z) / radius, round = way * (lz * x - lx * z) / radius;
+            double wanted = BRAID_SPIRAL * MEAN / (radius * b->cell);
+            assert_true(way == 0 ? lx == 0.0 && lz > 0.0
+                                 : fabs(inward / round - wanted) < 0.05 * wanted);
+        }
+        braid_free(b);
+    }
 }
 
 // ---- the form
@@ -285,6 +341,8 @@ int main(void)
         cmocka_unit_test(dry_columns_need_no_work),
         cmocka_unit_test(a_bump_moves_as_its_load_tells),
         cmocka_unit_test(narrow_rivers_stay_single_and_wide_ones_braid),
+        cmocka_unit_test(the_trunk_is_the_widest_thread),
+        cmocka_unit_test(bends_turn_the_load_inward),
         cmocka_unit_test(rivers_are_like_natural_ones_at_any_resolution),
         cmocka_unit_test(the_form_has_the_same_bits_for_any_threads),
     };

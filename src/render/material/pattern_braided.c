@@ -77,9 +77,9 @@ static Cover gravel(const SurfacePoint *point, Vec3 color, float age, float broa
     Rills r = rills(point);
     float coarse = 0.5f + 0.55f * ribbons + 0.4f * sheets.value + 0.5f * r.margin - 0.7f * r.floor;
     coarse = clampf(coarse + 0.15f * grain.value, 0.0f, 1.0f);
-    Vec3 sand = vec3_mul(color, vec3(1.14f, 1.10f, 1.03f));
+    Vec3 sand = vec3_mul(color, vec3(1.10f, 1.08f, 1.04f));
     Vec3 stones = vec3_mul(color, vec3(0.88f, 0.90f, 0.91f));
-    Vec3 silt = vec3_mul(color, vec3(0.66f, 0.64f, 0.57f));
+    Vec3 silt = vec3_mul(color, vec3(0.62f, 0.62f, 0.58f));
     Vec3 tint = vec3_lerp(vec3_lerp(sand, stones, coarse), silt, 0.75f * r.floor);
     float dark = smoothstepf(0.0f, 0.5f, age + 0.12f * broad + 0.16f * ribbons);
     tint = vec3_lerp(tint, vec3_mul(tint, vec3(0.54f, 0.55f, 0.50f)), dark);
@@ -116,7 +116,7 @@ static Cover hillside(const Material *m, const SurfacePoint *point, float uprigh
     c.slope = vec3_scale(scrub.slope, 0.22f);
     Vec3 stone = vec3_scale(m->color, 0.44f + 0.16f * clampf(rock.value, -1.5f, 1.5f));
     Cover cliff = {.color = stone, .slope = vec3_scale(rock.slope, 0.4f)};
-    float steep = smoothstepf(0.74f, 0.6f, upright + 0.05f * rock.value + 0.03f * broad);
+    float steep = smoothstepf(0.68f, 0.54f, upright + 0.06f * rock.value + 0.04f * broad);
     return blend(c, cliff, steep);
 }
 
@@ -129,20 +129,21 @@ void pattern_braided(const Material *m, const SurfacePoint *point, PatternShade 
     Cover ground = gravel(point, shade->color, age, broad.value);
     // Fine sediment settles in threads that have fallen dry.
     float still = smoothstepf(0.02f, 0.10f, age) * smoothstepf(0.45f, 0.8f, damp);
-    Cover silt = {.color = vec3_mul(shade->color, vec3(0.92f, 0.88f, 0.78f)), .slope = {0}};
+    Cover silt = {.color = vec3_mul(shade->color, vec3(0.84f, 0.83f, 0.77f)), .slope = {0}};
     ground = blend(ground, silt, 0.7f * still * smoothstepf(-0.6f, 0.5f, patch.value));
     float cover = age + 0.16f * patch.value + 0.08f * broad.value - 0.12f * damp;
     Cover mats = plants(point, m->color2, 0.25f * broad.value);
-    ground = blend(ground, mats, 0.9f * smoothstepf(0.46f, 0.64f, cover));
+    ground = blend(ground, mats, 0.9f * smoothstepf(0.42f, 0.58f, cover));
     float terrace = smoothstepf(0.66f, 0.76f, age);
     Cover meadow = plants(point, vec3_scale(m->color2, 1.15f), 0.10f + 0.35f * broad.value);
     ground =
         blend(ground, meadow, terrace * smoothstepf(0.86f, 0.94f, upright + 0.03f * patch.value));
     ground =
         blend(ground, hillside(m, point, upright, broad.value), smoothstepf(0.84f, 0.96f, age));
-    // Wet ground is dark: a ragged strip beside the water, and patches where it seeps.
+    // Wet ground is dark: a ragged strip beside the water, patches where it seeps, and the troughs
+    // of channels that have fallen dry.
     float moist = damp + 0.07f * patch.value;
-    float wet = 0.2f * smoothstepf(0.6f, 0.9f, moist) + 0.8f * smoothstepf(0.94f, 1.0f, moist);
+    float wet = 0.4f * smoothstepf(0.5f, 0.9f, moist) + 0.6f * smoothstepf(0.94f, 1.0f, moist);
     wet *= 1.0f - terrace;
     shade->color = vec3_scale(ground.color, 1.0f - 0.48f * wet);
     Vec3 slope = vec3_scale(ground.slope, m->pattern_depth * (1.0f - 0.5f * wet));
