@@ -42,38 +42,38 @@ typedef struct Path {
     PathResult *result;
     struct ShadowQueue *shadows;
     CloudGuide *guide;
+    uint64_t cloud_key; // state of the random numbers that track through clouds
+    int64_t rays;
     Sampler sampler;
-    Ray ray;
     uint32_t key; // of the next ray
+    Ray ray;
     Vec3 throughput;
     Media media;
     Vec3 direct, indirect;
     LightReceiver from; // the point where the ray's direction was sampled
     Vec3 start;         // the origin of the ray that left it
-    float travelled; // m from start to the ray's origin, across films and index-matched interfaces
-    float bsdf_pdf;  // of the ray's direction; 0 if light sampling cannot find it
-    float spread;    // radians: how fast the footprint grows
-    float footprint; // m, at the ray's origin
-    float roulette;  // uniform number, drawn with the ray's direction, that decides on arrival
-    int depth;       // bounces so far
-    int stretches;   // of rays through media so far
-    int crossings;   // of index-matched interfaces
-    uint64_t cloud_key; // state of the random numbers that track through clouds
-    int cloud_order;    // how far the phase function of droplets has widened: scatterings by them
-    float near;         // chance of a lamp among the lights sampled at start
-    bool weighed;       // near lights were weighed by place there
-    bool in_cloud;      // scattered by a droplet since the last surface
-    bool lamps_known;   // the light of lamps, up to the next surface, has been added
-    bool shown;         // that of the lamp or glowing surface that the ray meets has been added
-    bool mirrored;      // only mirror reflections since the camera
-    bool sharp;         // only reflections since the camera that blur little: air and haze show
-    bool guided;        // no chance has decided what a denoiser's guides show
-    bool gathers;       // left a point, not of open water, where light was gathered through it
-    bool straight;      // only films and index-matched interfaces since the camera
-    float clear;        // expected share of the light from behind that passes what scatters before
-                        // it, straight before the camera
-    Vec3 veil_normal;   // of the clouds there, times what they hide
-    int64_t rays;
+    float travelled;  // m from start to the ray's origin, across films and index-matched interfaces
+    float bsdf_pdf;   // of the ray's direction; 0 if light sampling cannot find it
+    float spread;     // radians: how fast the footprint grows
+    float footprint;  // m, at the ray's origin
+    float roulette;   // uniform number, drawn with the ray's direction, that decides on arrival
+    int depth;        // bounces so far
+    int stretches;    // of rays through media so far
+    int crossings;    // of index-matched interfaces
+    int cloud_order;  // how far the phase function of droplets has widened: scatterings by them
+    float near;       // chance of a lamp among the lights sampled at start
+    float clear;      // expected share of the light from behind that passes what scatters before
+                      // it, straight before the camera
+    Vec3 veil_normal; // of the clouds there, times what they hide
+    bool weighed;     // near lights were weighed by place there
+    bool in_cloud;    // scattered by a droplet since the last surface
+    bool lamps_known; // the light of lamps, up to the next surface, has been added
+    bool shown;       // that of the lamp or glowing surface that the ray meets has been added
+    bool mirrored;    // only mirror reflections since the camera
+    bool sharp;       // only reflections since the camera that blur little: air and haze show
+    bool guided;      // no chance has decided what a denoiser's guides show
+    bool gathers;     // left a point, not of open water, where light was gathered through it
+    bool straight;    // only films and index-matched interfaces since the camera
 } Path;
 
 // A path where its ray met a surface.
