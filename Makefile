@@ -6,7 +6,7 @@
 BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
                  libopenexr-dev zlib1g-dev libopencolorio-dev libassimp-dev libyaml-dev libtbb-dev libnlopt-dev libseccomp-dev \
                  libcmocka-dev libgdal-dev ffmpeg
-CHECK_PACKAGES = clang-format clang-tidy cppcheck
+CHECK_PACKAGES = clang-format clang-tidy cppcheck libomp-14-dev
 FUZZ_PACKAGES  = clang libclang-rt-14-dev
 PEER_COMMANDS  = povray:povray povray:povray-includes blender:blender node:nodejs npm:npm chromium:chromium mandoc:mandoc \
                  oiiotool:openimageio-tools gdalinfo:gdal-bin assimp:assimp-utils zsh:zsh
