@@ -12,8 +12,8 @@ typedef struct Phasor {
     float re_x, re_z, im_x, im_z; // gradient, in cells
 } Phasor;
 
-#define CELL 8.0f // wavelengths: the more, the fewer forks
-#define SWAY 2.0f // radians: how far crests wind
+#define CELL 11.0f // wavelengths: the more, the fewer forks
+#define SWAY 2.0f  // radians: how far crests wind
 
 // The wave of a cell's kernel at (x, z) from its middle; the wave number is in radians a cell.
 static void add_wave(Phasor *sum, float x, float z, float wave_x, float wave_z, float phase)
@@ -40,8 +40,8 @@ static Phasor phasor_at(float x, float z, float wave_x, float wave_z, uint32_t s
     for (int i = 0; i < 25; i++) {
         int at_x = column + i % 5 - 2, at_z = row + i / 5 - 2;
         uint32_t hash = noise_square(at_x, at_z, seed);
-        float turn = 0.26f * (noise_unit(hash, 3) - 0.5f);
-        float longer = 1.0f + 0.12f * (noise_unit(hash, 4) - 0.5f);
+        float turn = 0.16f * (noise_unit(hash, 3) - 0.5f);
+        float longer = 1.0f + 0.07f * (noise_unit(hash, 4) - 0.5f);
         add_wave(&sum, x - (float)at_x - noise_unit(hash, 0), z - (float)at_z - noise_unit(hash, 1),
                  longer * (wave_x - turn * wave_z), longer * (wave_z + turn * wave_x),
                  2.0f * PI_F * noise_unit(hash, 2));
