@@ -112,8 +112,9 @@ FORMATTED := $(wildcard src/*.[ch] $(foreach d,src/* src/*/*,$d/*.[ch] $d/*.cpp)
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 
+# Plugins first: a file of theirs takes a minute.
 all: packages ## build build/ramify, build/libramify.a and build/libramify.so
-	@$(MAKE) --no-print-directory -j$$(nproc) $(OUT)/ramify $(OUT)/libramify.a $(OUT)/libramify.so $(PLUGIN_FILES) $(MANUAL)
+	@$(MAKE) --no-print-directory -j$$(nproc) $(PLUGIN_FILES) $(OUT)/ramify $(OUT)/libramify.a $(OUT)/libramify.so $(MANUAL)
 
 demo: all ## render the oak of scenes/oak.yaml to build/oak.png (and .exr)
 	$(OUT)/ramify render scenes/oak.yaml -o $(OUT)/oak.png

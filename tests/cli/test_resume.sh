@@ -13,6 +13,7 @@ cd "$folder" || exit 1
 cat >scene.yaml <<'EOF'
 # a comment that pictures keep
 film: {width: 120, height: 90, denoise: true}
+sky: {kind: constant, color: [0.6, 0.8, 1]}
 render: {samples: 96, noise: 0.02}
 objects:
   - name: meadow
