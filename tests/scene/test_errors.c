@@ -88,6 +88,8 @@ static const Case scenes[] = {
      ":2:28: clouds.0.over: object 'a' is of the kind tree; it must be a terrain"},
     {"objects: [{name: a, scatter: {afloat: true, things: [{stone: {}}]}}]\n",
      ":1:39: objects.a.scatter.afloat is true; then in_water must be true, too"},
+    {"objects: [{name: a, scatter: {beyond: 1, things: [{stone: {}}]}}]\n",
+     ":1:39: objects.a.scatter.beyond is 1; 'on' must name the terrain whose copies it is about"},
     {TREE "clouds: [{kind: spray, over: a}]\n", ":2:30: clouds.0.over: object 'a' is of the kind "
                                                 "tree; it must be a terrain with waterfalls or "
                                                 "a sea with a bed"},

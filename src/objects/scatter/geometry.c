@@ -7,7 +7,13 @@ bool scatter_geometry(const void *given, const Grown *grown, const Placing *plac
     const ScatteringParams *params = given;
     ThingPlaces places;
     bool done = scatter_places_init(&places, params, placing->recipe, &placing->around, e);
-    int64_t settled = places.count / (1 + scatter_copies(params, placing->recipe->surface));
+    int copies = scatter_copies(params, placing->recipe->surface);
+    int64_t settled = places.count / (1 + copies);
+    if (done && params->beyond > 0 && copies == 0) {
+        recipe_warn(placing->recipe, NULL,
+                    "beyond is %d, but '%s' has no copies around it that things could stand on",
+                    params->beyond, params->on);
+    }
     if (done && settled < params->count) {
         recipe_warn(placing->recipe, NULL, "only %lld of %lld copies found a place",
                     (long long)settled, (long long)params->count);
