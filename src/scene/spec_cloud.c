@@ -96,6 +96,9 @@ static const Key CLOUD_KEYS[] = {
          "its thickness and thins behind them."},
     {KEY_OF(Cloud, seed, "seed", KEY_INT), .kinds = GROWN, .high = 1e9,
      .doc = "Changes the form of these clouds alone."},
+    {KEY_OF(Cloud, resolution, "resolution", KEY_INT), .kinds = GROWN, .low = 64, .high = 1024,
+     .doc = "Voxels across their grid, rounded up to a power of two: 128 for drafts; twice as many "
+            "take about eight times the memory and the time to grow."},
     {0},
 };
 

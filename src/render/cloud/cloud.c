@@ -14,7 +14,8 @@ Cloud cloud_default(CloudKind kind)
                        .thickness = 400.0f,
                        .cover = 0.7f,
                        .size = 1800.0f,
-                       .extinction = 0.05f};
+                       .extinction = 0.05f,
+                       .resolution = 512};
     case CLOUD_STORM:
         return (Cloud){.kind = kind,
                        .base = 1000.0f,
@@ -22,7 +23,8 @@ Cloud cloud_default(CloudKind kind)
                        .cover = 1.0f,
                        .size = 5000.0f,
                        .extinction = 0.1f,
-                       .softness = 0.5f};
+                       .softness = 0.5f,
+                       .resolution = 512};
     case CLOUD_FOG:
         return (Cloud){.kind = kind,
                        .base = -100.0f,
@@ -30,7 +32,8 @@ Cloud cloud_default(CloudKind kind)
                        .cover = 1.0f,
                        .size = 600.0f,
                        .extinction = 0.03f,
-                       .pool = 500.0f};
+                       .pool = 500.0f,
+                       .resolution = 512};
     case CLOUD_GRID:
         return (Cloud){.kind = kind, .extinction = 0.05f, .scale = 1.0f};
     case CLOUD_SPRAY:
@@ -44,7 +47,8 @@ Cloud cloud_default(CloudKind kind)
                    .cover = 0.3f,
                    .size = 1500.0f,
                    .extinction = 0.09f,
-                   .softness = 0.5f};
+                   .softness = 0.5f,
+                   .resolution = 512};
 }
 
 void cloud_grounds_free(Cloud *cloud, int count)

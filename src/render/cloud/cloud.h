@@ -51,6 +51,7 @@ typedef struct Cloud {
     SprayParcels *spray; // CLOUD_SPRAY: owned; NULL = not known yet
     CloudFloor *floor;   // with over: the level that it lies on; NULL = not known yet
     int seed;            // of these clouds beside the scene's
+    int resolution;      // voxels across their grid, rounded up to a power of two; grown kinds
     const char *file, *grid; // CLOUD_GRID: .vdb; NULL = its first grid of floats; borrowed
     Vec3 position, rotation; // m, degrees: of the file's origin
     float scale;             // m a unit of the file

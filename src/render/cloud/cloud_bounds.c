@@ -58,7 +58,7 @@ static int lane_of(int x, int y, int z)
 
 static Corner corner_at_node(const CloudGrid *g, int x, int y, int z)
 {
-    const int wrap = NODES_ACROSS - 1;
+    const int wrap = g->count[0] - 1;
     bool inside = y < g->count[1] && (g->repeats || (x < g->count[0] && z < g->count[2]));
     if (!inside) { // lookups find nothing between the last nodes and these
         return (Corner){.inside = (float)FARTHEST * g->voxel / DISTANCE_STEPS};

@@ -8,8 +8,6 @@
 
 #include <stdlib.h>
 
-enum { WRAP = NODES_ACROSS - 1 };
-
 static int16_t in_steps(const CloudGrid *g, float distance)
 {
     float steps = distance / g->voxel * DISTANCE_STEPS;
@@ -37,13 +35,14 @@ static void unite(CloudGrid *g, const Puff *puff, int z)
     float reach = reach_of(g), wide = (puff->radius + reach) / g->voxel;
     float tall = (puff->radius / puff->flatness + reach) / g->voxel;
     int16_t softness = in_softness(puff->softness);
+    const int wrap = g->count[0] - 1;
     int y0 = (int)fmaxf(ceilf(c.y - tall), 0.0f);
     int y1 = (int)fminf(floorf(c.y + tall), (float)g->count[1] - 1.0f);
     for (int x = (int)ceilf(c.x - wide); x <= (int)floorf(c.x + wide); x++) {
         if (!g->repeats && (x < 0 || x >= g->count[0])) {
             continue;
         }
-        CloudNode *column = g->node + cloud_grid_node(g, x & WRAP, 0, z & WRAP);
+        CloudNode *column = g->node + cloud_grid_node(g, x & wrap, 0, z & wrap);
         float dx = (float)x - c.x, dz = (float)z - c.z;
         for (int y = y0; y <= y1; y++) {
             float dy = ((float)y - c.y) * puff->flatness;
@@ -66,7 +65,7 @@ static void fill_with_puffs(CloudGrid *g, const Puffs *puffs, const Run *run)
             float c = (puff->center.z - g->low.z) / g->voxel;
             int z = slice; // the slice itself, or where it repeats near the ball
             if (g->repeats) {
-                z += NODES_ACROSS * (int)lrintf((c - (float)slice) / NODES_ACROSS);
+                z += g->count[2] * (int)lrintf((c - (float)slice) / (float)g->count[2]);
             }
             if (fabsf((float)z - c) <= wide) {
                 unite(g, puff, z);
@@ -103,7 +102,7 @@ static void add_anvil(CloudGrid *g, const Cloud *cloud, uint64_t key, const Run 
 // Softer and firmer patches: eddies bring dry air to some places of a border and not to others.
 static void add_patches(CloudGrid *g, const Cloud *cloud, const Run *run)
 {
-    const float often = 8.0f / NODES_ACROSS, most = 0.8f; // periods of the detail a node
+    const float often = 8.0f / (float)g->count[0], most = 0.8f; // periods of the detail a node
 #pragma omp parallel for schedule(dynamic, 8) num_threads(run->threads)
     for (int z = 0; z < g->count[2]; z++) {
         for (int x = 0; x < g->count[0]; x++) {
@@ -130,7 +129,7 @@ static bool fill_with_heaps(CloudGrid *g, const Cloud *cloud, uint64_t key, cons
     Puffs puffs = {.floor = cloud->base, .smallest = 0.8f * g->voxel};
     bool done = cloud->kind == CLOUD_STORM
                     ? storm_grow(&puffs, cloud, key, e)
-                    : heaps_grow(&puffs, cloud, g->voxel * NODES_ACROSS, key, e);
+                    : heaps_grow(&puffs, cloud, g->voxel * (float)g->count[0], key, e);
     if (done) {
         fill_with_puffs(g, &puffs, run);
         if (cloud->kind == CLOUD_STORM) {
@@ -175,10 +174,11 @@ static float rolls_cut(const CloudGrid *g, float cover)
 static void fill_with_sheet(CloudGrid *g, const Cloud *cloud, const Run *run)
 {
     float cut = rolls_cut(g, cloud->cover);
+    const float across = (float)g->count[0];
 #pragma omp parallel for schedule(static) num_threads(run->threads)
     for (int z = 0; z < g->count[2]; z++) {
         for (int x = 0; x < g->count[0]; x++) {
-            float roll = rolls(g, (float)x / NODES_ACROSS, (float)z / NODES_ACROSS);
+            float roll = rolls(g, (float)x / across, (float)z / across);
             float rise = clampf((roll - cut) / 0.5f, -1.0f, 1.0f);
             float top =
                 cloud->base + cloud->thickness * (rise > 0.0f ? 0.25f + 0.75f * rise : rise);
@@ -218,7 +218,7 @@ typedef struct Drawn {
 
 static Drawn drawn_out(const CloudGrid *g, const Cloud *cloud)
 {
-    float across = fmaxf(rintf(g->voxel * NODES_ACROSS / (16.0f * cloud->size)), 1.0f);
+    float across = fmaxf(rintf(g->voxel * (float)g->count[0] / (16.0f * cloud->size)), 1.0f);
     if (cloud->drift <= 0.0f) {
         float often = g->pooled ? across : 1.0f;
         return (Drawn){{often, 0.0f}, {0.0f, often}};
@@ -254,10 +254,11 @@ static void fill_with_fog(CloudGrid *g, const Cloud *cloud, const Run *run)
 {
     float cut = rolls_cut(g, cloud->cover);
     Drawn d = drawn_out(g, cloud);
+    const float across = (float)g->count[0];
 #pragma omp parallel for schedule(static) num_threads(run->threads)
     for (int z = 0; z < g->count[2]; z++) {
         for (int x = 0; x < g->count[0]; x++) {
-            float u = (float)x / NODES_ACROSS, v = (float)z / NODES_ACROSS, soft;
+            float u = (float)x / across, v = (float)z / across, soft;
             float share = fog_top(g, cut, d.x[0] * u + d.x[1] * v, d.z[0] * u + d.z[1] * v, &soft);
             float floor = g->pooled ? floor_at(cloud->floor, g->voxel, x, z) : cloud->base;
             float top = floor + cloud->thickness * share;

@@ -16,15 +16,25 @@ static int up_to_cells(float nodes)
     return ((int)nodes / CELL + 1) * CELL;
 }
 
+// The least power of two that is at least the cloud's resolution.
+static int nodes_across(const Cloud *cloud)
+{
+    int nodes = CELL;
+    while (nodes < cloud->resolution) {
+        nodes *= 2;
+    }
+    return nodes;
+}
+
 static void lay_out_on_floor(CloudGrid *g, const Cloud *cloud, float margin)
 {
     const CloudFloor *floor = cloud->floor;
     float side = floor->cell * (float)(floor->side - 1);
     g->repeats = g->fog = g->pooled = true;
-    g->voxel = (floor->periodic ? side : 2.0f * side) / NODES_ACROSS;
+    g->count[0] = g->count[2] = nodes_across(cloud);
+    g->voxel = (floor->periodic ? side : 2.0f * side) / (float)g->count[0];
     g->base = floor->least - margin;
     g->low = vec3(floor->x, g->base, floor->z);
-    g->count[0] = g->count[2] = NODES_ACROSS;
     float tall = floor->most - floor->least + 1.25f * cloud->thickness + 3.0f * margin;
     g->count[1] = up_to_cells(tall / g->voxel);
 }
@@ -37,14 +47,14 @@ static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
     if (!g->repeats) {
         across = 7.0f * cloud->size;
     }
-    g->voxel = across / NODES_ACROSS;
+    g->count[0] = g->count[2] = nodes_across(cloud);
+    g->voxel = across / (float)g->count[0];
     g->low = vec3(0.0f, cloud->base - margin, 0.0f);
     if (!g->repeats) { // most of the anvil lies downwind
         float wind = cloud->wind * RADIANS_PER_DEGREE, ahead = 1.25f * cloud->size - 0.5f * across;
         g->low.x = cloud->center_x - 0.5f * across + (ahead + 0.5f * across) * sinf(wind);
         g->low.z = cloud->center_z - 0.5f * across + (ahead + 0.5f * across) * cosf(wind);
     }
-    g->count[0] = g->count[2] = NODES_ACROSS;
     g->count[1] = up_to_cells((1.25f * cloud->thickness + 2.0f * margin) / g->voxel);
 }
 
@@ -191,7 +201,7 @@ static Coarse coarse_at(const CloudGrid *g, Vec3 p)
     if (!g->repeats && (x < 0 || z < 0 || x + 1 >= g->count[0] || z + 1 >= g->count[2])) {
         return (Coarse){-INFINITY, 0.0f, 0.0f};
     }
-    const int wrap = NODES_ACROSS - 1;
+    const int wrap = g->count[0] - 1;
     const int64_t column[4] = {cloud_grid_node(g, x & wrap, y, z & wrap),
                                cloud_grid_node(g, (x + 1) & wrap, y, z & wrap),
                                cloud_grid_node(g, x & wrap, y, (z + 1) & wrap),

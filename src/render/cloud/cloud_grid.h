@@ -18,7 +18,6 @@ enum {
     PARTS = 4,        // of a cell where the extinction changes much, along its side
     CELL_STEPS = 255, // of the greatest extinction
     MOST_GAP = 32,
-    NODES_ACROSS = 512,   // in x and z
     DISTANCE_STEPS = 256, // a voxel
     FARTHEST = -128 * DISTANCE_STEPS,
     SOFTEST = 1024,
@@ -55,7 +54,8 @@ typedef struct Roughness {
 typedef struct CloudGrid {
     Vec3 low;               // m: position of node (0, 0, 0)
     float voxel;            // m
-    int count[3], cells[3]; // nodes and cells in x, y, z; multiples of CELL
+    int count[3], cells[3]; // nodes and cells in x, y, z: nodes are multiples of
+                            // CELL, in x and z powers of two
     bool repeats;           // in x and z without end
     bool fog;               // densest at its base
     bool pooled;            // fog on a floor: densest from its thickness below its top down
