@@ -93,6 +93,7 @@ static Cloud thick_sheet(void)
     sheet.size = 2500.0f;
     sheet.cover = 1.0f;
     sheet.extinction = 0.04f;
+    sheet.resolution = 128;
     return sheet;
 }
 
@@ -217,6 +218,7 @@ static World *lit_sheet(int samples, bool field, bool curve)
     sheet.cover = 1.0f;
     sheet.thickness = 300.0f;
     sheet.extinction = 0.2f;
+    sheet.resolution = 128;
     add_cloud(world, sheet);
     if (curve) {
         CurveSet *curves = curves_new(5, 1, NULL);
@@ -308,6 +310,7 @@ static void there_is_none_where_it_does_not_pay(void **state)
     World *world = tiny_world(4, 4, 1, 0.5f);
     Cloud fog = cloud_default(CLOUD_FOG);
     fog.extinction = 1e-5f;
+    fog.resolution = 128;
     add_cloud(world, fog);
     add_light(world, ball(vec3(0, 0, 0), 2.0f, vec3_splat(1.0f)));
     Setup s = set_up(world);

@@ -6,7 +6,9 @@
 #include "render/world.h"
 #include "scene/export_grids.h"
 
-#define FOG "clouds: [{kind: fog, over: land, thickness: 6, size: 60, pool: 80, cover: 1}]\n"
+#define FOG                                                                                     \
+    "clouds: [{kind: fog, over: land, thickness: 6, size: 60, pool: 80, cover: 1, resolution: " \
+    "128}]\n"
 #define LAND                                                                               \
     "objects: [{name: land, terrain: {form: noise, size: 500, relief: 4, resolution: 64, " \
     "position: [300, 40, -200], noise: {iterations: 5}}}]\n"
