@@ -269,7 +269,7 @@ fine ivy-wall ivy-wall 4
 still olive-trunk olive-trunk
 fine pine-rock pine-rock 5
 still leaves-sun leaves-sun
-still willow-lake willow-lake
+fine willow-lake willow-lake 5
 fine pond pond 5
 still cherry-blossom cherry-blossom
 still beech-wood beech-wood
