@@ -108,10 +108,10 @@ static void fill_half(const Half *h, const DenoiseInput *g, const Run *run)
     }
 }
 
-// What a block's mean over albedo lacks, as far as its noise explains it. fine: denoised at the
-// full size.
+// What a block's mean over albedo lacks, as far as its noise explains it, and behind it what it is
+// at the scale below. fine: denoised at the full size.
 static void find_correction(const DenoiseInput *g, const Half *h, const Image *fine,
-                            const Image *coarse, int x, int y, float correction[3])
+                            const Image *coarse, int x, int y, float correction[6])
 {
     float mean[3] = {0}, divisor[3], weight[3], count = 0.0f;
     for (int k = 0; k < 4; k++) {
@@ -130,7 +130,8 @@ static void find_correction(const DenoiseInput *g, const Half *h, const Image *f
     denoise_weights(divisor, weight);
     float square = 0.0f, scale = luminance_rgb(divisor);
     for (int c = 0; c < 3; c++) {
-        correction[c] = coarse->pixel[3 * block + c] / divisor[c] - mean[c] / count;
+        correction[3 + c] = coarse->pixel[3 * block + c] / divisor[c];
+        correction[c] = correction[3 + c] - mean[c] / count;
         square += weight[c] * correction[c] * correction[c] * (1.0f / 3.0f);
     }
     float variance = denoise_variance(h->variance, 0, x, y) / (scale * scale);
@@ -140,31 +141,33 @@ static void find_correction(const DenoiseInput *g, const Half *h, const Image *f
     }
 }
 
-// Adds corrections, interpolated between the middles of blocks, to a pixel.
+// Adds corrections, interpolated between the middles of blocks, to a pixel: what is darker than
+// the scale below is not darkened further, as beside a glint that its block has too much of.
 static void correct_pixel(const DenoiseInput *g, const Image *correction, int x, int y, Image *fine)
 {
     int64_t at = (int64_t)y * fine->width + x;
     int column[2] = {x / 2, denoise_mirror(x / 2 + (x % 2 ? 1 : -1), correction->width)};
     int row[2] = {y / 2, denoise_mirror(y / 2 + (y % 2 ? 1 : -1), correction->height)};
-    float divisor[3], sum[3] = {0};
+    float divisor[3], sum[6] = {0};
     for (int k = 0; k < 4; k++) {
         int64_t block = (int64_t)row[k / 2] * correction->width + column[k % 2];
         float share = (k % 2 ? 0.25f : 0.75f) * (k / 2 ? 0.25f : 0.75f);
-        for (int c = 0; c < 3; c++) {
-            sum[c] += share * correction->pixel[3 * block + c];
+        for (int c = 0; c < 6; c++) {
+            sum[c] += share * correction->pixel[6 * block + c];
         }
     }
     denoise_divisor(g->albedo->pixel + 3 * at, divisor);
     for (int c = 0; c < 3 && g->variance->pixel[at] > 0.0f; c++) {
         float *to = fine->pixel + at * fine->channels + c;
-        *to = fmaxf(*to + divisor[c] * sum[c], 0.0f);
+        float floor = fminf(*to, divisor[c] * sum[3 + c]);
+        *to = fmaxf(*to + divisor[c] * sum[c], fmaxf(floor, 0.0f));
     }
 }
 
 static bool correct(const DenoiseInput *g, const Half *h, const Image *coarse, const Run *run,
                     Image *fine, Error *e)
 {
-    Image *correction = image_new(coarse->width, coarse->height, 3, e);
+    Image *correction = image_new(coarse->width, coarse->height, 6, e);
     if (!correction) {
         return false;
     }
@@ -174,7 +177,7 @@ static bool correct(const DenoiseInput *g, const Half *h, const Image *coarse, c
         for (int y = 0; y < coarse->height; y++) {
             for (int x = 0; x < coarse->width; x++) {
                 int64_t block = (int64_t)y * coarse->width + x;
-                find_correction(g, h, fine, coarse, x, y, correction->pixel + 3 * block);
+                find_correction(g, h, fine, coarse, x, y, correction->pixel + 6 * block);
             }
         }
 #pragma omp for schedule(static)

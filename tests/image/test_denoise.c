@@ -348,6 +348,38 @@ static void test_white_glints_on_colour(void **state)
     }
 }
 
+// Glints of the sun on water: of few samples some pixels have met many and most have met none.
+static Scene make_glints(int samples, float share, float bright)
+{
+    Scene s = make_scene(0.0f);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        int x = i % WIDTH, y = i / WIDTH, glints = 0;
+        for (int k = 0; k < samples; k++) {
+            glints += random_unit(random_key(11, (uint64_t)(i * samples + k))) < share;
+        }
+        float part = (float)glints / (float)samples, color = 0.06f + bright * part;
+        set_pixel(s.albedo, x, y, 1, 1, 1);
+        set_pixel(s.normal, x, y, 0, 1, 0);
+        set_pixel(s.noisy, x, y, color, color, color);
+        s.variance->pixel[i] = 1e-5f + bright * bright * part * (1.0f - part) / (float)samples;
+        s.depth->pixel[i] = 5.0f;
+    }
+    return s;
+}
+
+// What lies between glints gets no darker than it is without any.
+static void test_no_holes_beside_glints(void **state)
+{
+    (void)state;
+    Scene s = make_glints(6, 0.05f, 200.0f);
+    Image *out = denoise(&s, 1.0f, 2);
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        assert_true(out->pixel[3 * i] >= 0.06f);
+    }
+    image_free(out);
+    free_scene(&s);
+}
+
 // Smaller than the search window, with broken pixels and alpha.
 // A wood out of focus beside a striped wall: samples meet leaves or sky at random, so that albedo,
 // normal and colour of a pixel share the noise of what it happened to meet.
@@ -472,6 +504,7 @@ int main(void)
         cmocka_unit_test(test_refuses_and_stops),
         cmocka_unit_test(test_variance_of_few_samples),
         cmocka_unit_test(test_white_glints_on_colour),
+        cmocka_unit_test(test_no_holes_beside_glints),
         cmocka_unit_test(test_noise_of_guides),
         cmocka_unit_test(test_tiny_image),
         cmocka_unit_test(test_silhouettes_do_not_glow),
