@@ -1,0 +1,28 @@
+// What bears a pillow of snow, seen from above: the needles and twigs of a bough on a level grid,
+// the outline of the snow that bridges the gaps between them, and the surface that it lies on.
+#ifndef RAMIFY_MESH_SNOW_SNOW_BED_H
+#define RAMIFY_MESH_SNOW_SNOW_BED_H
+
+#include "mesh/snow/snow.h"
+
+// A grid of points; point (x, z) is entry z * across + x and stands at low + cell * (x, z). The
+// points of its border lie outside of the outline. Clear with snow_bed_clear.
+typedef struct SnowBed {
+    int across, along; // points along x and z
+    float cell;        // m, between points
+    float low_x, low_z;
+    float *height;  // m: of the surface that bears the snow; 0 far from all bearers
+    float *outline; // m: distance to the outline, > 0 inside
+    float *share;   // of the full depth, where inside
+} SnowBed;
+
+// Lays out the bed of the bearers. Snow spans params->bridging; none lies where the surface is too
+// steep, where little comes through, and in gaps, which `seed` places.
+bool snow_bed_init(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
+                   const SnowReach *reach, uint64_t seed, Error *e);
+void snow_bed_clear(SnowBed *bed);
+
+// Entry of the point nearest to p; p must lie within the bounds of the bed's bearers.
+int64_t snow_bed_entry(const SnowBed *bed, Vec3 p);
+
+#endif
