@@ -8,16 +8,18 @@
 #include <stdlib.h>
 
 enum { STREAM_GAPS = 1, STREAM_LUMPS = 2 }; // of a bough
-enum { BORDER = 3, MOST_ACROSS = 400, ROUNDINGS = 3, HEIGHT_BLURS = 3 };
+enum { BORDER = 4, MOST_ACROSS = 400, ROUNDINGS = 3 };
 
 #define CELL_LEAST 0.008f   // m
+#define CELL_MOST 0.035f
 #define CELL_DEPTH 0.3f     // cell, in depths
 #define BEARS 0.12f         // share of a cell that must be covered to bear snow
 #define SHARE_LEAST 0.18f   // of the depth: thinner snow is left out
-#define SPECK 0.14f         // half the width of the smallest pillow, in depths
+#define SPECK 0.004f        // m2: smaller pillows are left out
+#define STIFF 0.1f          // cells2: how little slopes follow a few tops
 #define OVERHANG 0.16f      // of the rim, in depths
 #define GAP_LENGTH 0.35f    // m, about, of a gap
-#define LUMP_LENGTH 2.6f    // of a lump, in depths
+#define LUMP_LENGTH 3.2f    // of a lump, in depths
 #define LUMP_HEIGHT 0.55f   // how far lumps differ from the mean, by a noise of about -0.7 .. 0.7
 #define NOWHERE 1e12f       // square of a distance, in cells: there is nothing
 
@@ -50,7 +52,8 @@ static bool lay_out(SnowBed *bed, const SnowBearer *bearer, int64_t count, const
     }
     Vec3 size = vec3_sub(box.high, box.low);
     float widest = fmaxf(size.x, size.z);
-    float cell = fmaxf(fmaxf(CELL_LEAST, CELL_DEPTH * params->depth), widest / MOST_ACROSS);
+    float cell = fmaxf(clampf(CELL_DEPTH * params->depth, CELL_LEAST, CELL_MOST),
+                       widest / MOST_ACROSS);
     int border = BORDER + (int)(params->bridging / cell);
     *bed = (SnowBed){.across = 1 + 2 * border + (int)(size.x / cell + 0.5f),
                      .along = 1 + 2 * border + (int)(size.z / cell + 0.5f),
@@ -176,54 +179,117 @@ static void gather(SnowBed *bed, const SnowBearer *bearer, int64_t count, bool *
     }
 }
 
-// Snow lies on the tops, evened out over the gaps that it spans.
-static void even_out(SnowBed *bed, const bool *inside, int reach, float *weight, float *line)
+// A plane over the tops about a point.
+typedef struct Slope {
+    float height; // m, at the point
+    float x, z;   // slopes; 0 without tops
+    bool none;    // there is no top in reach
+} Slope;
+
+// Snow lies on the tops, evened out over the gaps that it spans: moving least squares of planes,
+// weighted by distance, which neither level nor bend the rims of slopes.
+static Slope fit(const SnowBed *bed, const float *top, int x, int z, float reach)
 {
-    for (int64_t i = 0; i < point_count(bed); i++) {
-        weight[i] = inside[i];
-        bed->height[i] = inside[i] ? bed->height[i] : 0.0f;
+    int far = (int)reach;
+    float weight = 0.0f, mean[3] = {0}, cross[5] = {0}; // x, z, y; xx, zz, xz, xy, zy
+    float middle = 0.0f;
+    for (int dz = -far; dz <= far; dz++) {
+        for (int dx = -far; dx <= far; dx++) {
+            bool off = x + dx < 0 || z + dz < 0 || x + dx >= bed->across || z + dz >= bed->along;
+            float share = 1.0f - (float)(dx * dx + dz * dz) / (reach * reach);
+            float y = off ? NAN : top[(int64_t)(z + dz) * bed->across + x + dx];
+            if (isnan(y) || share <= 0.0f) {
+                continue;
+            }
+            middle = weight == 0.0f ? y : middle; // keeps the sums precise
+            float w = share * share, fx = (float)dx, fz = (float)dz, fy = y - middle;
+            const float add[5] = {fx * fx, fz * fz, fx * fz, fx * fy, fz * fy};
+            weight += w;
+            mean[0] += w * fx;
+            mean[1] += w * fz;
+            mean[2] += w * fy;
+            for (int k = 0; k < 5; k++) {
+                cross[k] += w * add[k];
+            }
+        }
     }
-    for (int turn = 0; turn < HEIGHT_BLURS; turn++) {
-        box_blur(bed, weight, reach, line);
-        box_blur(bed, bed->height, reach, line);
+    if (weight == 0.0f) {
+        return (Slope){.none = true};
     }
-    for (int64_t i = 0; i < point_count(bed); i++) {
-        bed->height[i] = weight[i] > 1e-6f ? bed->height[i] / weight[i] : 0.0f;
+    for (int k = 0; k < 3; k++) {
+        mean[k] /= weight;
     }
+    float xx = cross[0] / weight - mean[0] * mean[0] + STIFF;
+    float zz = cross[1] / weight - mean[1] * mean[1] + STIFF;
+    float xz = cross[2] / weight - mean[0] * mean[1];
+    float xy = cross[3] / weight - mean[0] * mean[2], zy = cross[4] / weight - mean[1] * mean[2];
+    float whole = xx * zz - xz * xz;
+    Slope slope = {.x = (xy * zz - zy * xz) / whole, .z = (zy * xx - xy * xz) / whole};
+    slope.height = middle + mean[2] - slope.x * mean[0] - slope.z * mean[1];
+    slope.x /= bed->cell;
+    slope.z /= bed->cell;
+    return slope;
 }
 
-// How much of the full depth lies at the point: less on slopes and below other boughs.
-static float share_at(const SnowBed *bed, int x, int z, const SnowParams *params,
-                      const SnowReach *reach, uint64_t seed)
+// 0 in gaps, else 1 and lumps.
+static float unevenness(const SnowParams *params, Vec3 p, uint64_t seed)
 {
-    const float *h = bed->height + (int64_t)z * bed->across + x;
-    float slope_x = (h[1] - h[-1]) / (2.0f * bed->cell);
-    float slope_z = (h[bed->across] - h[-bed->across]) / (2.0f * bed->cell);
-    float level = 1.0f / sqrtf(1.0f + slope_x * slope_x + slope_z * slope_z);
-    Vec3 p = vec3(bed->low_x + (float)x * bed->cell, h[0], bed->low_z + (float)z * bed->cell);
-    float length = LUMP_LENGTH * params->depth;
-    float lump =
-        noise_plane_fractal(p.x / length, p.z / length, 2, random_key(seed, STREAM_LUMPS));
-    float gap = 1.0f;
+    float length = LUMP_LENGTH * params->depth, gap = 1.0f;
+    float lump = noise_plane(p.x / length, p.z / length, random_key(seed, STREAM_LUMPS));
     if (params->gaps > 0.0f) {
-        float wave =
-            noise_plane(p.x / GAP_LENGTH, p.z / GAP_LENGTH, random_key(seed, STREAM_GAPS));
+        float wave = noise_plane(p.x / GAP_LENGTH, p.z / GAP_LENGTH, random_key(seed, STREAM_GAPS));
         float edge = -0.5f + params->gaps;
         gap = smoothstepf(edge - 0.08f, edge + 0.08f, wave);
     }
-    return (1.0f + LUMP_HEIGHT * lump) * gap * snow_stays(params, level) *
-           reach->share(reach->user, p);
+    return gap * (1.0f + LUMP_HEIGHT * lump);
 }
 
-// Snow that would be too thin is left out.
-static void set_shares(SnowBed *bed, const SnowParams *params, const SnowReach *reach,
-                       uint64_t seed, bool *inside)
+// The surface, and how much of the full depth lies at each point: less on slopes and below other
+// boughs. Snow that would be too thin is left out.
+static void set_surface(SnowBed *bed, const SnowParams *params, const SnowReach *reach,
+                        uint64_t seed, bool *inside, float *top)
 {
+    float far = 0.5f * params->bridging / bed->cell + 4.0f;
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        top[i] = bed->share[i] > 0.0f ? bed->height[i] : NAN;
+    }
     for (int i = 0; i < bed->across * bed->along; i++) {
         int x = i % bed->across, z = i / bed->across;
-        bool border = x == 0 || z == 0 || x == bed->across - 1 || z == bed->along - 1;
-        bed->share[i] = border ? 0.0f : share_at(bed, x, z, params, reach, seed);
+        Slope slope = fit(bed, top, x, z, far);
+        float level = 1.0f / sqrtf(1.0f + slope.x * slope.x + slope.z * slope.z);
+        Vec3 p = vec3(bed->low_x + (float)x * bed->cell, slope.height,
+                      bed->low_z + (float)z * bed->cell);
+        bed->height[i] = slope.height;
+        bed->share[i] = slope.none ? 0.0f
+                                   : unevenness(params, p, seed) * snow_stays(params, level) *
+                                         reach->share(reach->user, p);
         inside[i] = inside[i] && bed->share[i] >= SHARE_LEAST;
+    }
+}
+
+// Takes out what is so small that it would look like a flake in the air.
+static void drop_specks(const SnowBed *bed, bool *inside, int32_t *stack, bool *seen)
+{
+    const int64_t beside[4] = {-1, 1, -bed->across, bed->across};
+    int64_t least = 1 + (int64_t)(SPECK / (bed->cell * bed->cell));
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        int64_t count = 0;
+        if (inside[i] && !seen[i]) {
+            seen[i] = true;
+            stack[count++] = (int32_t)i;
+        }
+        for (int64_t k = 0; k < count; k++) {
+            for (int n = 0; n < 4; n++) {
+                int64_t other = stack[k] + beside[n];
+                if (inside[other] && !seen[other]) {
+                    seen[other] = true;
+                    stack[count++] = (int32_t)other;
+                }
+            }
+        }
+        for (int64_t k = 0; k < count && count < least; k++) {
+            inside[stack[k]] = false;
+        }
     }
 }
 
@@ -242,44 +308,66 @@ static void set_outline(SnowBed *bed, const bool *inside, const Line *line, floa
     }
 }
 
+// Room for the steps of a bed.
+typedef struct Room {
+    Line line;
+    bool *inside, *seen; // per point
+    float *field;
+    int32_t *stack;
+} Room;
+
 static void shape(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
-                  const SnowReach *reach, uint64_t seed, bool *inside, float *field,
-                  const Line *line)
+                  const SnowReach *reach, uint64_t seed, const Room *room)
 {
-    float span = 0.5f * params->bridging / bed->cell, speck = SPECK * params->depth / bed->cell;
-    gather(bed, bearer, count, inside);
-    even_out(bed, inside, 1 + (int)span, field, line->value);
-    dilate(bed, inside, true, span + 0.5f, line, field); // closing: gaps become snow
-    dilate(bed, inside, false, span + 0.5f, line, field);
-    set_shares(bed, params, reach, seed, inside);
-    dilate(bed, inside, false, speck + 0.5f, line, field); // opening: specks and spikes vanish
-    dilate(bed, inside, true, speck + 0.5f, line, field);
-    set_outline(bed, inside, line, OVERHANG * params->depth, field);
-    box_blur(bed, bed->share, 1, line->value);
+    float span = 0.5f * params->bridging / bed->cell + 0.5f;
+    gather(bed, bearer, count, room->inside);
+    dilate(bed, room->inside, true, span, &room->line, room->field); // closing: gaps become snow
+    dilate(bed, room->inside, false, span, &room->line, room->field);
+    set_surface(bed, params, reach, seed, room->inside, room->field);
+    drop_specks(bed, room->inside, room->stack, room->seen);
+    set_outline(bed, room->inside, &room->line, OVERHANG * params->depth, room->field);
+    box_blur(bed, bed->share, 1, room->line.value);
+}
+
+static void room_clear(Room *room)
+{
+    free(room->line.value);
+    free(room->line.result);
+    free(room->line.from);
+    free(room->line.apex);
+    free(room->inside);
+    free(room->seen);
+    free(room->field);
+    free(room->stack);
+}
+
+static bool room_init(Room *room, const SnowBed *bed, Error *e)
+{
+    int64_t points = point_count(bed);
+    int longest = bed->across > bed->along ? bed->across : bed->along;
+    *room = (Room){.line = {.value = memory_alloc(longest, sizeof(float), e),
+                            .result = memory_alloc(longest, sizeof(float), e),
+                            .from = memory_alloc(longest, sizeof(float), e),
+                            .apex = memory_alloc(longest, sizeof(int), e)},
+                   .inside = memory_alloc_zero(points, sizeof(bool), e),
+                   .seen = memory_alloc_zero(points, sizeof(bool), e),
+                   .field = memory_alloc(points, sizeof(float), e),
+                   .stack = memory_alloc(points, sizeof(int32_t), e)};
+    const Line *line = &room->line;
+    return line->value && line->result && line->from && line->apex && room->inside && room->seen &&
+           room->field && room->stack;
 }
 
 bool snow_bed_init(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
                    const SnowReach *reach, uint64_t seed, Error *e)
 {
-    bool done = lay_out(bed, bearer, count, params, e);
-    int longest = bed->across > bed->along ? bed->across : bed->along;
-    Line line = {.value = memory_alloc(longest, sizeof(float), e),
-                 .result = memory_alloc(longest, sizeof(float), e),
-                 .from = memory_alloc(longest, sizeof(float), e),
-                 .apex = memory_alloc(longest, sizeof(int), e)};
-    bool *inside = memory_alloc_zero(point_count(bed), sizeof *inside, e);
-    float *field = memory_alloc(point_count(bed), sizeof *field, e);
-    done = done && line.value && line.result && line.from && line.apex && inside && field;
+    Room room = {0};
+    bool done = lay_out(bed, bearer, count, params, e) && room_init(&room, bed, e);
     if (done) {
-        shape(bed, bearer, count, params, reach, seed, inside, field, &line);
+        shape(bed, bearer, count, params, reach, seed, &room);
     } else {
         snow_bed_clear(bed);
     }
-    free(line.value);
-    free(line.result);
-    free(line.from);
-    free(line.apex);
-    free(inside);
-    free(field);
+    room_clear(&room);
     return done;
 }

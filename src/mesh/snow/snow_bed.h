@@ -25,4 +25,9 @@ void snow_bed_clear(SnowBed *bed);
 // Entry of the point nearest to p; p must lie within the bounds of the bed's bearers.
 int64_t snow_bed_entry(const SnowBed *bed, Vec3 p);
 
+// Thickness (m) of snow at every point of the bed, 0 outside of its outline; on a strip of half
+// width w, at distance x from its middle: depth * share * sqrt(1 - cosh(x / L) / cosh(w / L)) with
+// L = depth / sqrt(2). The caller frees the list; NULL and e when out of memory.
+float *snow_thickness(const SnowBed *bed, float depth, Error *e);
+
 #endif

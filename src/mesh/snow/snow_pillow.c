@@ -49,8 +49,7 @@ static void relax(const SnowBed *bed, float *square, int64_t i, float screen, fl
     square[i] += RELAXATION * (sum / weight - square[i]);
 }
 
-// Thickness (m) at every point of the bed; 0 outside.
-static float *thickness(const SnowBed *bed, float depth, Error *e)
+float *snow_thickness(const SnowBed *bed, float depth, Error *e)
 {
     int64_t count = (int64_t)bed->across * bed->along;
     float *thick = memory_alloc_zero(count, sizeof *thick, e);
@@ -211,7 +210,7 @@ static bool add_mesh(PillowMesh *mesh, Error *e)
 static bool add_pillow(SnowPile *pile, const SnowBed *bed, float depth, Error *e)
 {
     int64_t count = (int64_t)bed->across * bed->along;
-    float *thick = thickness(bed, depth, e);
+    float *thick = snow_thickness(bed, depth, e);
     PillowMesh mesh = {.bed = bed,
                        .thick = thick,
                        .low = memory_alloc(count, sizeof *mesh.low, e),
