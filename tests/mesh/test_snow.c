@@ -277,7 +277,6 @@ static void deeper_snow_has_more_volume(void **state)
     for (float depth = 0.02f; depth < 0.2f; depth *= 1.5f) {
         Mesh *mesh = pillows(comb(), calm(depth, 0.0f, 0.1f), &OPEN);
         double here = volume(mesh);
-        fprintf(stderr, "V %g %g\n", (double)depth, here);
         assert_true(here > before);
         before = here;
         mesh_free(mesh);

@@ -28,6 +28,7 @@ void snow_bed_clear(SnowBed *bed)
     free(bed->height);
     free(bed->outline);
     free(bed->share);
+    free(bed->highest);
 }
 
 static int64_t point_count(const SnowBed *bed)
@@ -35,11 +36,17 @@ static int64_t point_count(const SnowBed *bed)
     return (int64_t)bed->across * bed->along;
 }
 
-int64_t snow_bed_entry(const SnowBed *bed, Vec3 p)
+// The point nearest to p, which must be a bearer.
+static int64_t entry_of(const SnowBed *bed, Vec3 p)
 {
     int x = (int)((p.x - bed->low_x) / bed->cell + 0.5f);
     int z = (int)((p.z - bed->low_z) / bed->cell + 0.5f);
     return (int64_t)z * bed->across + x;
+}
+
+bool snow_bed_passes(const SnowBed *bed, Vec3 p)
+{
+    return p.y < bed->highest[entry_of(bed, p)] - SNOW_STEP;
 }
 
 // A grid that leaves room for the overhang and for what bridging does near the border.
@@ -63,7 +70,8 @@ static bool lay_out(SnowBed *bed, const SnowBearer *bearer, int64_t count, const
     bed->height = memory_alloc_zero(point_count(bed), sizeof(float), e);
     bed->outline = memory_alloc_zero(point_count(bed), sizeof(float), e);
     bed->share = memory_alloc_zero(point_count(bed), sizeof(float), e);
-    return bed->height && bed->outline && bed->share;
+    bed->highest = memory_alloc_zero(point_count(bed), sizeof(float), e);
+    return bed->height && bed->outline && bed->share && bed->highest;
 }
 
 // ---- distances ----
@@ -164,18 +172,53 @@ static void box_blur(const SnowBed *bed, float *field, int reach, float *line)
     }
 }
 
-// The points that bear snow, and as the bed's height the highest bearer of each.
-static void gather(SnowBed *bed, const SnowBearer *bearer, int64_t count, bool *inside)
+// Each point becomes the greatest of those up to `reach` points beside it, along x and then z.
+static void spread_greatest(const SnowBed *bed, float *field, int reach, float *line)
+{
+    for (int turn = 0; turn < 2; turn++) {
+        int count = turn == 0 ? bed->across : bed->along, step = turn == 0 ? 1 : bed->across;
+        int lines = turn == 0 ? bed->along : bed->across, next = turn == 0 ? bed->across : 1;
+        for (int k = 0; k < lines; k++) {
+            float *first = field + (int64_t)k * next;
+            for (int i = 0; i < count; i++) {
+                line[i] = -INFINITY;
+                for (int d = -reach; d <= reach; d++) {
+                    if (i + d >= 0 && i + d < count) {
+                        line[i] = fmaxf(line[i], first[(int64_t)(i + d) * step]);
+                    }
+                }
+            }
+            for (int i = 0; i < count; i++) {
+                first[(int64_t)i * step] = line[i];
+            }
+        }
+    }
+}
+
+// The highest bearer at every point and near it, and the points that bear snow: enough is there, and
+// nothing stands far above them. top: m, NAN where there is none.
+static void gather(SnowBed *bed, const SnowBearer *bearer, int64_t count, int reach, bool *inside,
+                   float *top, float *line)
 {
     float *area = bed->share;
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        bed->highest[i] = -INFINITY;
+    }
     for (int64_t i = 0; i < count; i++) {
-        int64_t at = snow_bed_entry(bed, bearer[i].p);
-        bool first = area[at] == 0.0f;
-        bed->height[at] = first ? bearer[i].p.y : fmaxf(bed->height[at], bearer[i].p.y);
+        int64_t at = entry_of(bed, bearer[i].p);
+        bed->highest[at] = fmaxf(bed->highest[at], bearer[i].p.y);
         area[at] += bearer[i].area;
     }
     for (int64_t i = 0; i < point_count(bed); i++) {
         inside[i] = area[i] >= BEARS * bed->cell * bed->cell;
+        top[i] = inside[i] ? bed->highest[i] : NAN;
+    }
+    spread_greatest(bed, bed->highest, reach, line);
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        if (inside[i] && top[i] < bed->highest[i] - SNOW_STEP) {
+            inside[i] = false;
+            top[i] = NAN;
+        }
     }
 }
 
@@ -247,12 +290,9 @@ static float unevenness(const SnowParams *params, Vec3 p, uint64_t seed)
 // The surface, and how much of the full depth lies at each point: less on slopes and below other
 // boughs. Snow that would be too thin is left out.
 static void set_surface(SnowBed *bed, const SnowParams *params, const SnowReach *reach,
-                        uint64_t seed, bool *inside, float *top)
+                        uint64_t seed, bool *inside, const float *top)
 {
     float far = 0.5f * params->bridging / bed->cell + 4.0f;
-    for (int64_t i = 0; i < point_count(bed); i++) {
-        top[i] = bed->share[i] > 0.0f ? bed->height[i] : NAN;
-    }
     for (int i = 0; i < bed->across * bed->along; i++) {
         int x = i % bed->across, z = i / bed->across;
         Slope slope = fit(bed, top, x, z, far);
@@ -312,7 +352,7 @@ static void set_outline(SnowBed *bed, const bool *inside, const Line *line, floa
 typedef struct Room {
     Line line;
     bool *inside, *seen; // per point
-    float *field;
+    float *field, *top;
     int32_t *stack;
 } Room;
 
@@ -320,10 +360,10 @@ static void shape(SnowBed *bed, const SnowBearer *bearer, int64_t count, const S
                   const SnowReach *reach, uint64_t seed, const Room *room)
 {
     float span = 0.5f * params->bridging / bed->cell + 0.5f;
-    gather(bed, bearer, count, room->inside);
+    gather(bed, bearer, count, 1 + (int)span, room->inside, room->top, room->line.value);
     dilate(bed, room->inside, true, span, &room->line, room->field); // closing: gaps become snow
     dilate(bed, room->inside, false, span, &room->line, room->field);
-    set_surface(bed, params, reach, seed, room->inside, room->field);
+    set_surface(bed, params, reach, seed, room->inside, room->top);
     drop_specks(bed, room->inside, room->stack, room->seen);
     set_outline(bed, room->inside, &room->line, OVERHANG * params->depth, room->field);
     box_blur(bed, bed->share, 1, room->line.value);
@@ -338,6 +378,7 @@ static void room_clear(Room *room)
     free(room->inside);
     free(room->seen);
     free(room->field);
+    free(room->top);
     free(room->stack);
 }
 
@@ -352,10 +393,11 @@ static bool room_init(Room *room, const SnowBed *bed, Error *e)
                    .inside = memory_alloc_zero(points, sizeof(bool), e),
                    .seen = memory_alloc_zero(points, sizeof(bool), e),
                    .field = memory_alloc(points, sizeof(float), e),
+                   .top = memory_alloc(points, sizeof(float), e),
                    .stack = memory_alloc(points, sizeof(int32_t), e)};
     const Line *line = &room->line;
     return line->value && line->result && line->from && line->apex && room->inside && room->seen &&
-           room->field && room->stack;
+           room->field && room->top && room->stack;
 }
 
 bool snow_bed_init(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,

@@ -14,16 +14,19 @@ typedef struct SnowBed {
     float *height;  // m: of the surface that bears the snow; 0 far from all bearers
     float *outline; // m: distance to the outline, > 0 inside
     float *share;   // of the full depth, where inside
+    float *highest; // m: bearer near the point; bearers SNOW_STEP below it do not belong to the bed
 } SnowBed;
 
-// Lays out the bed of the bearers. Snow spans params->bridging; none lies where the surface is too
+#define SNOW_STEP 0.25f // m
+
+// Lays out the bed of the highest of the bearers. Snow spans params->bridging; none lies where the surface is too
 // steep, where little comes through, and in gaps, which `seed` places.
 bool snow_bed_init(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
                    const SnowReach *reach, uint64_t seed, Error *e);
 void snow_bed_clear(SnowBed *bed);
 
-// Entry of the point nearest to p; p must lie within the bounds of the bed's bearers.
-int64_t snow_bed_entry(const SnowBed *bed, Vec3 p);
+// Whether one of its bearers lies so far below others that the bed is not of it.
+bool snow_bed_passes(const SnowBed *bed, Vec3 p);
 
 // Thickness (m) of snow at every point of the bed, 0 outside of its outline; on a strip of half
 // width w, at distance x from its middle: depth * share * sqrt(1 - cosh(x / L) / cosh(w / L)) with

@@ -11,12 +11,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { SWEEPS = 40, MOST_LAYERS = 3 };
+enum { SWEEPS = 40, MOST_LAYERS = 4 };
 
 #define RELAXATION 1.4f
 #define NEAREST 0.05f // of a cell: how near the outline may pass by a point
 #define SAG 0.25f     // how far snow reaches down between what bears it, in thicknesses
-#define LAYER 0.28f   // m: what is deeper below the surface of snow bears its own
 
 void snow_pile_clear(SnowPile *pile)
 {
@@ -223,13 +222,12 @@ static bool add_pillow(SnowPile *pile, const SnowBed *bed, float depth, Error *e
     return done;
 }
 
-// Moves the bearers that lie far below the snow to the front; returns their number.
+// Moves the bearers that lie far below others to the front; returns their number.
 static int64_t deeper(const SnowBed *bed, SnowBearer *bearer, int64_t count)
 {
     int64_t kept = 0;
     for (int64_t i = 0; i < count; i++) {
-        int64_t at = snow_bed_entry(bed, bearer[i].p);
-        if (bed->outline[at] > 0.0f && bearer[i].p.y < bed->height[at] - LAYER) {
+        if (snow_bed_passes(bed, bearer[i].p)) {
             bearer[kept++] = bearer[i];
         }
     }
