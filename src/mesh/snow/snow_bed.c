@@ -11,7 +11,7 @@ enum { STREAM_GAPS = 1, STREAM_LUMPS = 2 }; // of a bough
 enum { BORDER = 4, MOST_ACROSS = 400, ROUNDINGS = 3 };
 
 #define CELL_LEAST 0.008f   // m
-#define CELL_MOST 0.035f
+#define CELL_MOST 0.045f
 #define CELL_DEPTH 0.3f     // cell, in depths
 #define BEARS 0.12f         // share of a cell that must be covered to bear snow
 #define SHARE_LEAST 0.18f   // of the depth: thinner snow is left out
@@ -295,7 +295,8 @@ static void set_surface(SnowBed *bed, const SnowParams *params, const SnowReach 
     float far = 0.5f * params->bridging / bed->cell + 4.0f;
     for (int i = 0; i < bed->across * bed->along; i++) {
         int x = i % bed->across, z = i / bed->across;
-        Slope slope = fit(bed, top, x, z, far);
+        bool none = bed->highest[i] == -INFINITY; // all around
+        Slope slope = none ? (Slope){.none = true} : fit(bed, top, x, z, far);
         float level = 1.0f / sqrtf(1.0f + slope.x * slope.x + slope.z * slope.z);
         Vec3 p = vec3(bed->low_x + (float)x * bed->cell, slope.height,
                       bed->low_z + (float)z * bed->cell);

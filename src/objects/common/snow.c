@@ -11,6 +11,7 @@
 enum { STREAM_PILLOWS = 20 }; // of an object
 
 #define SPRAY_LEAST 0.08f  // m: snow does not settle on smaller leaves
+#define NEEDLED_RADIUS 0.006f // m: thinner branches of plants with sprays are hidden by them
 #define BEARER_SIZE 0.012f // m: needles nearer to each other bear snow as one
 
 // An instanced mesh that snow settles on.
@@ -293,8 +294,10 @@ static bool add_snow(Mesh *mesh, const Placing *placing, int role, Error *e)
     return placing_add(placing, (Part){.mesh = mesh}, role, e);
 }
 
+// *pillows: whether there are any.
 static bool add_on_boughs(const OutTree *tree, const SnowParams *params, const SnowFall *fall,
-                          int64_t first, const Placing *placing, int role, Error *e)
+                          int64_t first, const Placing *placing, int role, bool *pillows,
+                          Error *e)
 {
     BoughSnow snow = {.params = params,
                       .reach = {share_of, fall},
@@ -305,6 +308,7 @@ static bool add_on_boughs(const OutTree *tree, const SnowParams *params, const S
     snow.of_part = memory_alloc_zero(snow.parts, sizeof *snow.of_part, e);
     bool done = snow.of_part && boughs_init(&boughs, tree, e) && sort_sprays(&snow, &boughs, e) &&
                 pile_up(&snow, e) && add_snow(snow_pile_mesh(&snow.pile, e), placing, role, e);
+    *pillows = snow.pile.index_count > 0;
     boughs_free(&boughs);
     bough_snow_clear(&snow);
     return done;
@@ -312,13 +316,24 @@ static bool add_on_boughs(const OutTree *tree, const SnowParams *params, const S
 
 // ---- branches ----
 
-static bool add_on_branches(const CurveSet *curves, const OutTree *tree, const SnowParams *params,
-                            int32_t bare_from, const SnowFall *fall, const Placing *placing,
-                            int role, Error *e)
+// Twigs among needles lie below pillows, and show no snow of their own.
+static void hide_twigs(const CurveSet *curves, bool *bare)
 {
-    bool *bare = bare_from >= 0 ? branches_bare(tree, curves, bare_from, e) : NULL;
-    if (bare_from >= 0 && !bare) {
+    for (int64_t i = 0; i < curves->curve_count; i++) {
+        bare[i] = bare[i] || curves->radius[curves->first[i]] < NEEDLED_RADIUS;
+    }
+}
+
+static bool add_on_branches(const CurveSet *curves, const OutTree *tree, const SnowParams *params,
+                            int32_t bare_from, bool pillows, const SnowFall *fall,
+                            const Placing *placing, int role, Error *e)
+{
+    bool *bare = branches_bare(tree, curves, bare_from >= 0 ? bare_from : INT32_MAX, e);
+    if (!bare) {
         return false;
+    }
+    if (pillows) {
+        hide_twigs(curves, bare);
     }
     SnowReach reach = {share_of, fall};
     Mesh *mesh = snow_on_curves(curves, bare, params, &reach, placing->recipe->run, e);
@@ -336,9 +351,10 @@ bool snow_add(const OutTree *tree, const SkinningParams *skinning, const SnowPar
     SkinParams skin = branches_skin(skinning);
     CurveSet *curves = skin_curves(tree, every_radius, &skin, e);
     SnowFall fall = {0};
+    bool pillows = false;
     bool done = curves && fall_init(&fall, curves, first, placing->geometry, e) &&
-                add_on_boughs(tree, params, &fall, first, placing, role, e) &&
-                add_on_branches(curves, tree, params, bare_from, &fall, placing, role, e);
+                add_on_boughs(tree, params, &fall, first, placing, role, &pillows, e) &&
+                add_on_branches(curves, tree, params, bare_from, pillows, &fall, placing, role, e);
     snow_fall_free(&fall);
     curves_free(curves);
     return done;
