@@ -113,7 +113,8 @@ static void cushions_end_inside_the_branch(void **state)
     (void)state;
     SnowParams params = {.depth = DEPTH, .steepest = 50.0f, .gaps = 0.5f};
     Mesh *mesh = snow_on(vec3(1, 0, 0), RADIUS, params, NULL);
-    Mesh *whole = snow_on(vec3(1, 0, 0), RADIUS, (SnowParams){.depth = DEPTH, .steepest = 50.0f}, NULL);
+    Mesh *whole =
+        snow_on(vec3(1, 0, 0), RADIUS, (SnowParams){.depth = DEPTH, .steepest = 50.0f}, NULL);
     assert_true(mesh->face_count > 0 && mesh->face_count < whole->face_count);
     int used[4096] = {0};
     assert_true(mesh->vertex_count < 4096);
@@ -187,8 +188,7 @@ static void add_sheet(Bearers *to, Vec3 middle, float size_x, float size_z, floa
 {
     const float step = 0.004f;
     int across = (int)(size_x / step), along = (int)(size_z / step);
-    to->bearer =
-        realloc(to->bearer, (size_t)(to->count + across * along) * sizeof *to->bearer);
+    to->bearer = realloc(to->bearer, (size_t)(to->count + across * along) * sizeof *to->bearer);
     assert_non_null(to->bearer);
     for (int i = 0; i < across * along; i++) {
         float x = step * ((float)(i % across) - 0.5f * (float)(across - 1));

@@ -1,5 +1,5 @@
-// Boughs: each node belongs to what grows from the main axis, and places to the bough of the nearest
-// node, as a search over all nodes finds it.
+// Boughs: each node belongs to what grows from the main axis, and places to the bough of the
+// nearest node, as a search over all nodes finds it.
 #include "objects/common/boughs.h"
 #include "testing.h"
 
@@ -78,7 +78,8 @@ static void places_belong_to_the_nearest_node(void **state)
         }
         assert_true(least == vec3_distance(p, tree->position[best]));
     }
-    assert_int_equal(boughs_nearest(&boughs, vec3(1e4f, 0, 0)), boughs_nearest(&boughs, vec3(2e4f, 0, 0)));
+    assert_int_equal(boughs_nearest(&boughs, vec3(1e4f, 0, 0)),
+                     boughs_nearest(&boughs, vec3(2e4f, 0, 0)));
     boughs_free(&boughs);
     out_tree_free(tree);
 }

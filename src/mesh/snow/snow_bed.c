@@ -10,18 +10,18 @@
 enum { STREAM_GAPS = 1, STREAM_LUMPS = 2 }; // of a bough
 enum { BORDER = 4, MOST_ACROSS = 400, ROUNDINGS = 3 };
 
-#define CELL_LEAST 0.008f   // m
+#define CELL_LEAST 0.008f // m
 #define CELL_MOST 0.045f
-#define CELL_DEPTH 0.3f     // cell, in depths
-#define BEARS 0.12f         // share of a cell that must be covered to bear snow
-#define SHARE_LEAST 0.18f   // of the depth: thinner snow is left out
-#define SPECK 0.004f        // m2: smaller pillows are left out
-#define STIFF 0.1f          // cells2: how little slopes follow a few tops
-#define OVERHANG 0.16f      // of the rim, in depths
-#define GAP_LENGTH 0.35f    // m, about, of a gap
-#define LUMP_LENGTH 3.2f    // of a lump, in depths
-#define LUMP_HEIGHT 0.55f   // how far lumps differ from the mean, by a noise of about -0.7 .. 0.7
-#define NOWHERE 1e12f       // square of a distance, in cells: there is nothing
+#define CELL_DEPTH 0.3f   // cell, in depths
+#define BEARS 0.12f       // share of a cell that must be covered to bear snow
+#define SHARE_LEAST 0.18f // of the depth: thinner snow is left out
+#define SPECK 0.004f      // m2: smaller pillows are left out
+#define STIFF 0.1f        // cells2: how little slopes follow a few tops
+#define OVERHANG 0.16f    // of the rim, in depths
+#define GAP_LENGTH 0.35f  // m, about, of a gap
+#define LUMP_LENGTH 3.2f  // of a lump, in depths
+#define LUMP_HEIGHT 0.55f // how far lumps differ from the mean, by a noise of about -0.7 .. 0.7
+#define NOWHERE 1e12f     // square of a distance, in cells: there is nothing
 
 void snow_bed_clear(SnowBed *bed)
 {
@@ -59,8 +59,8 @@ static bool lay_out(SnowBed *bed, const SnowBearer *bearer, int64_t count, const
     }
     Vec3 size = vec3_sub(box.high, box.low);
     float widest = fmaxf(size.x, size.z);
-    float cell = fmaxf(clampf(CELL_DEPTH * params->depth, CELL_LEAST, CELL_MOST),
-                       widest / MOST_ACROSS);
+    float cell =
+        fmaxf(clampf(CELL_DEPTH * params->depth, CELL_LEAST, CELL_MOST), widest / MOST_ACROSS);
     int border = BORDER + (int)(params->bridging / cell);
     *bed = (SnowBed){.across = 1 + 2 * border + (int)(size.x / cell + 0.5f),
                      .along = 1 + 2 * border + (int)(size.z / cell + 0.5f),
@@ -195,8 +195,8 @@ static void spread_greatest(const SnowBed *bed, float *field, int reach, float *
     }
 }
 
-// The highest bearer at every point and near it, and the points that bear snow: enough is there, and
-// nothing stands far above them. top: m, NAN where there is none.
+// The highest bearer at every point and near it, and the points that bear snow: enough is there,
+// and nothing stands far above them. top: m, NAN where there is none.
 static void gather(SnowBed *bed, const SnowBearer *bearer, int64_t count, int reach, bool *inside,
                    float *top, float *line)
 {

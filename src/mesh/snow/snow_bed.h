@@ -19,8 +19,8 @@ typedef struct SnowBed {
 
 #define SNOW_STEP 0.25f // m
 
-// Lays out the bed of the highest of the bearers. Snow spans params->bridging; none lies where the surface is too
-// steep, where little comes through, and in gaps, which `seed` places.
+// Lays out the bed of the highest of the bearers. Snow spans params->bridging; none lies where the
+// surface is too steep, where little comes through, and in gaps, which `seed` places.
 bool snow_bed_init(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
                    const SnowReach *reach, uint64_t seed, Error *e);
 void snow_bed_clear(SnowBed *bed);

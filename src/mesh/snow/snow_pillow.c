@@ -15,6 +15,7 @@ enum { SWEEPS = 40, MOST_LAYERS = 4 };
 
 #define RELAXATION 1.4f
 #define NEAREST 0.05f // of a cell: how near the outline may pass by a point
+#define BELOW 0.6f    // share of the snow that comes to what lies below a pillow
 #define SAG 0.25f     // how far snow reaches down between what bears it, in thicknesses
 
 void snow_pile_clear(SnowPile *pile)
@@ -112,8 +113,7 @@ static bool add_vertices(PillowMesh *mesh, int64_t i, Error *e)
     if (outline[i] > 0.0f) {
         Vec3 p = place_of(bed, i), up = vec3(0.0f, mesh->thick[i], 0.0f);
         mesh->low[i] = pile->vertex_count;
-        if (!add_vertex(pile, vec3_madd(p, -SAG, up), e) ||
-            !add_vertex(pile, vec3_add(p, up), e)) {
+        if (!add_vertex(pile, vec3_madd(p, -SAG, up), e) || !add_vertex(pile, vec3_add(p, up), e)) {
             return false;
         }
     }
@@ -124,8 +124,8 @@ static bool add_vertices(PillowMesh *mesh, int64_t i, Error *e)
         if (in == (outline[other] > 0.0f)) {
             continue;
         }
-        float way = in ? crossing(outline[i], outline[other])
-                       : 1.0f - crossing(outline[other], outline[i]);
+        float way =
+            in ? crossing(outline[i], outline[other]) : 1.0f - crossing(outline[other], outline[i]);
         mesh->rim[i][k] = pile->vertex_count;
         if (!add_vertex(pile, vec3_lerp(place_of(bed, i), place_of(bed, other), way), e)) {
             return false;
@@ -234,18 +234,32 @@ static int64_t deeper(const SnowBed *bed, SnowBearer *bearer, int64_t count)
     return kept;
 }
 
+typedef struct Sheltered {
+    const SnowReach *reach;
+    float share; // that what lies above lets through
+} Sheltered;
+
+static float sheltered_share(const void *user, Vec3 p)
+{
+    const Sheltered *sheltered = user;
+    return sheltered->share * sheltered->reach->share(sheltered->reach->user, p);
+}
+
 bool snow_add_pillows(SnowPile *pile, SnowBearer *bearer, int64_t count, const SnowParams *params,
                       const SnowReach *reach, uint64_t seed, Error *e)
 {
+    Sheltered sheltered = {reach, 1.0f};
+    const SnowReach below = {sheltered_share, &sheltered};
     bool done = true;
     for (int layer = 0; done && count > 0 && layer < MOST_LAYERS; layer++) {
         SnowBed bed;
-        if (!snow_bed_init(&bed, bearer, count, params, reach, seed + (uint64_t)layer, e)) {
+        if (!snow_bed_init(&bed, bearer, count, params, &below, seed + (uint64_t)layer, e)) {
             return false;
         }
         done = add_pillow(pile, &bed, params->depth, e);
         count = deeper(&bed, bearer, count);
         snow_bed_clear(&bed);
+        sheltered.share *= BELOW;
     }
     return done;
 }

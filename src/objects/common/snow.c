@@ -10,9 +10,9 @@
 
 enum { STREAM_PILLOWS = 20 }; // of an object
 
-#define SPRAY_LEAST 0.08f  // m: snow does not settle on smaller leaves
+#define SPRAY_LEAST 0.08f     // m: snow does not settle on smaller leaves
 #define NEEDLED_RADIUS 0.006f // m: thinner branches of plants with sprays are hidden by them
-#define BEARER_SIZE 0.012f // m: needles nearer to each other bear snow as one
+#define BEARER_SIZE 0.012f    // m: needles nearer to each other bear snow as one
 
 // An instanced mesh that snow settles on.
 typedef struct Spray {
@@ -163,8 +163,7 @@ static bool bearers_of(const Mesh *mesh, SprayBearers *all, Error *e)
         Vec3 c = mesh->position[corner[2]], d = mesh->position[corner[mesh->face_size - 1]];
         Vec3 sum = vec3_add(vec3_add(a, b), vec3_add(c, d));
         all->bearer[all->count++] = (SnowBearer){
-            vec3_scale(sum, 0.25f),
-            0.5f * vec3_length(vec3_cross(vec3_sub(c, a), vec3_sub(d, b)))};
+            vec3_scale(sum, 0.25f), 0.5f * vec3_length(vec3_cross(vec3_sub(c, a), vec3_sub(d, b)))};
     }
     if (all->bearer) {
         qsort(all->bearer, (size_t)all->count, sizeof *all->bearer, compare_bearers);
@@ -249,8 +248,8 @@ static bool add_bearers(BoughSnow *snow, const Placed *placed, Error *e)
         return false;
     }
     for (int64_t i = 0; i < all->count; i++) {
-        snow->bearer[snow->bearer_count++] = (SnowBearer){transform_point(t, all->bearer[i].p),
-                                                          scale * scale * all->bearer[i].area};
+        snow->bearer[snow->bearer_count++] =
+            (SnowBearer){transform_point(t, all->bearer[i].p), scale * scale * all->bearer[i].area};
     }
     return true;
 }
@@ -296,8 +295,7 @@ static bool add_snow(Mesh *mesh, const Placing *placing, int role, Error *e)
 
 // *pillows: whether there are any.
 static bool add_on_boughs(const OutTree *tree, const SnowParams *params, const SnowFall *fall,
-                          int64_t first, const Placing *placing, int role, bool *pillows,
-                          Error *e)
+                          int64_t first, const Placing *placing, int role, bool *pillows, Error *e)
 {
     BoughSnow snow = {.params = params,
                       .reach = {share_of, fall},
