@@ -98,8 +98,9 @@ static bool add_vertex(SnowPile *pile, Vec3 p, Error *e)
 
 static Vec3 place_of(const SnowBed *bed, int64_t i)
 {
-    return vec3(bed->low_x + (float)(i % bed->across) * bed->cell, bed->height[i],
-                bed->low_z + (float)(i / bed->across) * bed->cell);
+    int64_t x = i % bed->across, z = i / bed->across;
+    return vec3(bed->low_x + (float)x * bed->cell, bed->height[i],
+                bed->low_z + (float)z * bed->cell);
 }
 
 // The vertices of point i and of the edges that begin there.

@@ -233,7 +233,9 @@ static bool sort_sprays(BoughSnow *snow, const Boughs *boughs, Error *e)
             snow->placed[snow->placed_count++] = placed;
         }
     }
-    qsort(snow->placed, (size_t)snow->placed_count, sizeof *snow->placed, compare_placed);
+    if (snow->placed_count > 0) {
+        qsort(snow->placed, (size_t)snow->placed_count, sizeof *snow->placed, compare_placed);
+    }
     return true;
 }
 
