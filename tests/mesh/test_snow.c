@@ -1,7 +1,7 @@
 // Settled snow: as deep as it should be on a level branch, none on steep or bare ones, closed
-// cushions that face outward, less of it below what catches it.
+// pillows on boughs that face outward and bridge gaps, less of it below what catches it.
 #include "base/exact_math.h"
-#include "mesh/snow/snow.h"
+#include "mesh/snow/snow_bed.h"
 #include "objects/common/snow_fall.h"
 #include "testing.h"
 
@@ -113,7 +113,8 @@ static void cushions_end_inside_the_branch(void **state)
     (void)state;
     SnowParams params = {.depth = DEPTH, .steepest = 50.0f, .gaps = 0.5f};
     Mesh *mesh = snow_on(vec3(1, 0, 0), RADIUS, params, NULL);
-    Mesh *whole = snow_on(vec3(1, 0, 0), RADIUS, (SnowParams){DEPTH, 50.0f, 0.0f}, NULL);
+    Mesh *whole =
+        snow_on(vec3(1, 0, 0), RADIUS, (SnowParams){.depth = DEPTH, .steepest = 50.0f}, NULL);
     assert_true(mesh->face_count > 0 && mesh->face_count < whole->face_count);
     int used[4096] = {0};
     assert_true(mesh->vertex_count < 4096);
@@ -131,65 +132,208 @@ static void cushions_end_inside_the_branch(void **state)
     mesh_free(whole);
 }
 
-// A sheet of squares in the plane z = 0.
-static Mesh *sheet(int across, int along, float size)
+// The closed form on a strip of half width w at x from its middle.
+static double strip_thickness(double depth, double w, double x)
 {
-    Mesh *mesh = mesh_new(4, (int64_t)(across + 1) * (along + 1), (int64_t)across * along, 0, NULL);
+    double length = depth / sqrt(2.0);
+    return depth * sqrt(1.0 - cosh(x / length) / cosh(w / length));
+}
+
+// A bed whose outline is a strip along x of half width w about z = 0.
+static SnowBed strip_bed(float w, float cell)
+{
+    SnowBed bed = {.across = 60, .along = 61, .cell = cell, .low_z = -30.0f * cell};
+    int64_t count = (int64_t)bed.across * bed.along;
+    bed.height = calloc((size_t)count, sizeof(float));
+    bed.outline = calloc((size_t)count, sizeof(float));
+    bed.share = calloc((size_t)count, sizeof(float));
+    assert_true(bed.height && bed.outline && bed.share);
+    for (int64_t i = 0; i < count; i++) {
+        int64_t row = i / bed.across;
+        float z = bed.low_z + cell * (float)row;
+        bool end = i % bed.across == 0 || i % bed.across == bed.across - 1;
+        bed.outline[i] = end ? -cell : w - fabsf(z);
+        bed.share[i] = 1.0f;
+    }
+    return bed;
+}
+
+// Compared as squares, which the equation solves: at the outline the thickness is steep.
+static void thickness_is_that_of_the_closed_form(void **state)
+{
+    (void)state;
+    const float cell = 0.3f * DEPTH, width[] = {0.021f, 0.0517f, 0.09f, 0.22f};
+    double most = (double)DEPTH * (double)DEPTH;
+    for (int k = 0; k < 4; k++) {
+        SnowBed bed = strip_bed(width[k], cell);
+        float *thick = snow_thickness(&bed, DEPTH, NULL);
+        assert_non_null(thick);
+        for (int z = 0; z < bed.along; z++) {
+            double x = (double)(bed.low_z + cell * (float)z), w = (double)width[k];
+            double expected = fabs(x) < w ? strip_thickness((double)DEPTH, w, x) : 0.0;
+            double found = (double)thick[z * bed.across + bed.across / 2];
+            assert_true(fabs(found * found - expected * expected) < 0.03 * most);
+        }
+        free(thick);
+        snow_bed_clear(&bed);
+    }
+}
+
+typedef struct Bearers {
+    SnowBearer *bearer;
+    int64_t count;
+} Bearers;
+
+// Bearers on a level rectangle whose middle is at `middle`, closer than the cells of any bed.
+static void add_sheet(Bearers *to, Vec3 middle, float size_x, float size_z, float slope)
+{
+    const float step = 0.004f;
+    int across = (int)(size_x / step), along = (int)(size_z / step);
+    to->bearer = realloc(to->bearer, (size_t)(to->count + across * along) * sizeof *to->bearer);
+    assert_non_null(to->bearer);
+    for (int i = 0; i < across * along; i++) {
+        int column = i % across, row = i / across;
+        float x = step * ((float)column - 0.5f * (float)(across - 1));
+        float z = step * ((float)row - 0.5f * (float)(along - 1));
+        to->bearer[to->count++] =
+            (SnowBearer){vec3(middle.x + x, middle.y + slope * x, middle.z + z), step * step};
+    }
+}
+
+// The snow on the bearers, which are freed.
+static Mesh *pillows(Bearers on, SnowParams params, const SnowReach *reach)
+{
+    SnowPile pile = {0};
+    assert_true(snow_add_pillows(&pile, on.bearer, on.count, &params, reach, 5, NULL));
+    Mesh *mesh = snow_pile_mesh(&pile, NULL);
     assert_non_null(mesh);
-    for (int y = 0; y <= along; y++) {
-        for (int x = 0; x <= across; x++) {
-            mesh->position[y * (across + 1) + x] = vec3((float)x * size, (float)y * size, 0.0f);
-        }
-    }
-    uint32_t *corner = mesh->index;
-    for (int y = 0; y < along; y++) {
-        for (int x = 0; x < across; x++) {
-            uint32_t low = (uint32_t)(y * (across + 1) + x), high = low + (uint32_t)across + 1;
-            *corner++ = low;
-            *corner++ = low + 1;
-            *corner++ = high + 1;
-            *corner++ = high;
-        }
-    }
+    snow_pile_clear(&pile);
+    free(on.bearer);
     return mesh;
 }
 
-static void a_cushion_is_closed_and_faces_outward(void **state)
+static double volume(const Mesh *mesh)
+{
+    double sum = 0.0;
+    for (int64_t f = 0; f < mesh->face_count; f++) {
+        const uint32_t *corner = mesh->index + 3 * f;
+        Vec3 a = mesh->position[corner[0]], b = mesh->position[corner[1]];
+        sum += (double)vec3_dot(a, vec3_cross(b, mesh->position[corner[2]])) / 6.0;
+    }
+    return sum;
+}
+
+static int64_t bodies(const Mesh *mesh)
+{
+    MeshTopology topology;
+    assert_true(mesh_topology(mesh, &topology, NULL));
+    assert_int_equal(topology.open_edges, 0);
+    assert_int_equal(topology.misoriented_edges, 0);
+    assert_int_equal(topology.overused_edges, 0);
+    assert_int_equal(topology.degenerate_faces, 0);
+    return topology.component_count;
+}
+
+static SnowParams calm(float depth, float gaps, float bridging)
+{
+    return (SnowParams){.depth = depth, .steepest = 55.0f, .gaps = gaps, .bridging = bridging};
+}
+
+// A comb of twigs with gaps, one twig far below the others.
+static Bearers comb(void)
+{
+    Bearers on = {0};
+    add_sheet(&on, vec3(0, 1, 0), 0.6f, 0.03f, 0.2f);
+    for (int i = 0; i < 5; i++) {
+        add_sheet(&on, vec3(-0.24f + 0.12f * (float)i, 1, 0), 0.02f, 0.5f, 0.0f);
+    }
+    add_sheet(&on, vec3(0, 0.5f, 0.02f), 0.3f, 0.3f, 0.0f);
+    return on;
+}
+
+static void pillows_are_closed_and_face_outward(void **state)
 {
     (void)state;
-    Mesh *spray = sheet(40, 80, 0.005f);
-    for (int turned = 0; turned < 2; turned++) {
-        Mesh *mesh = snow_on_spray(spray, DEPTH, turned, 9, NULL);
-        assert_non_null(mesh);
-        MeshTopology topology;
-        assert_true(mesh_topology(mesh, &topology, NULL));
-        assert_int_equal(topology.open_edges, 0);
-        assert_int_equal(topology.misoriented_edges, 0);
-        assert_int_equal(topology.overused_edges, 0);
+    for (int k = 0; k < 6; k++) {
+        int wide = k / 2;
+        float gaps = 0.3f * (float)(k % 2), bridging = 0.05f * (float)wide;
+        Mesh *mesh = pillows(comb(), calm(DEPTH, gaps, bridging), &OPEN);
+        assert_true(bodies(mesh) >= 2); // the lower twig bears its own
         uint8_t *closed = malloc((size_t)mesh->face_count);
         assert_non_null(closed);
         assert_true(mesh_closed_faces(mesh, closed, NULL));
-        assert_true(closed[0]); // outward: its volume is positive
-        Aabb box = mesh_bounds(mesh);
-        float top = turned ? -box.low.z : box.high.z;
-        assert_true(top > 0.7f * DEPTH && top < 1.35f * DEPTH);
+        for (int64_t f = 0; f < mesh->face_count; f++) {
+            assert_true(closed[f]);
+        }
         for (int64_t i = 0; i < mesh->vertex_count; i++) {
-            assert_true(vec3_finite(mesh->normal[i]));
+            assert_true(vec3_finite(mesh->position[i]) && vec3_finite(mesh->normal[i]));
         }
         free(closed);
         mesh_free(mesh);
     }
-    mesh_free(spray);
 }
 
-static void no_spray_no_snow(void **state)
+static void deeper_snow_has_more_volume(void **state)
 {
     (void)state;
-    Mesh *none = mesh_new(4, 0, 0, 0, NULL), *mesh = snow_on_spray(none, DEPTH, false, 9, NULL);
-    assert_non_null(mesh);
-    assert_int_equal(mesh->face_count, 0);
+    double before = 0.0;
+    for (int k = 0; k < 6; k++) {
+        const float depth[] = {0.02f, 0.03f, 0.045f, 0.07f, 0.1f, 0.15f};
+        Mesh *mesh = pillows(comb(), calm(depth[k], 0.0f, 0.1f), &OPEN);
+        double here = volume(mesh);
+        assert_true(here > before);
+        before = here;
+        mesh_free(mesh);
+    }
+    float half = 0.5f;
+    Mesh *mesh = pillows(comb(), calm(0.15f, 0.0f, 0.1f), &(SnowReach){everywhere, &half});
+    assert_true(volume(mesh) < 0.7 * before); // below other boughs
     mesh_free(mesh);
-    mesh_free(none);
+}
+
+// Two twigs 0.1 m apart.
+static void snow_spans_what_it_can_bridge(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        Bearers on = {0};
+        add_sheet(&on, vec3(0, 0, -0.08f), 0.5f, 0.06f, 0.0f);
+        add_sheet(&on, vec3(0, 0, 0.08f), 0.5f, 0.06f, 0.0f);
+        Mesh *mesh = pillows(on, calm(0.03f, 0.0f, k == 0 ? 0.08f : 0.12f), &OPEN);
+        assert_int_equal(bodies(mesh), k == 0 ? 2 : 1);
+        mesh_free(mesh);
+    }
+}
+
+// A wide level sheet bears the depth and its lumps; its rim hangs over by less than the depth.
+static void a_level_sheet_bears_its_depth(void **state)
+{
+    (void)state;
+    Bearers on = {0};
+    add_sheet(&on, vec3(0, 1, 0), 0.6f, 0.6f, 0.0f);
+    Mesh *mesh = pillows(on, calm(DEPTH, 0.0f, 0.1f), &OPEN);
+    Aabb box = mesh_bounds(mesh);
+    assert_true(box.high.y > 1.0f + DEPTH && box.high.y < 1.0f + 1.6f * DEPTH);
+    assert_true(box.high.x > 0.29f && box.high.x < 0.3f + 0.5f * DEPTH);
+    double mean = volume(mesh) / (0.36 * (double)DEPTH); // above and, by a quarter, below
+    assert_true(mean > 1.0 && mean < 1.4);
+    mesh_free(mesh);
+}
+
+static void steep_and_sheltered_boughs_bear_none(void **state)
+{
+    (void)state;
+    float none = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        Bearers on = {0};
+        if (k < 2) {
+            add_sheet(&on, vec3(0, 0, 0), 0.3f, 0.3f, k == 0 ? 1.6f : 0.0f);
+        }
+        SnowReach reach = {everywhere, k == 1 ? &none : NULL};
+        Mesh *mesh = pillows(on, calm(DEPTH, 0.0f, 0.1f), &reach);
+        assert_int_equal(mesh->face_count, 0);
+        mesh_free(mesh);
+    }
 }
 
 // Three layers that catch half of what they cover, above a place and beside it.
@@ -219,8 +363,12 @@ int main(void)
         cmocka_unit_test(thin_twigs_bear_less),
         cmocka_unit_test(steep_and_bare_branches_bear_none),
         cmocka_unit_test(cushions_end_inside_the_branch),
-        cmocka_unit_test(a_cushion_is_closed_and_faces_outward),
-        cmocka_unit_test(no_spray_no_snow),
+        cmocka_unit_test(thickness_is_that_of_the_closed_form),
+        cmocka_unit_test(pillows_are_closed_and_face_outward),
+        cmocka_unit_test(deeper_snow_has_more_volume),
+        cmocka_unit_test(snow_spans_what_it_can_bridge),
+        cmocka_unit_test(a_level_sheet_bears_its_depth),
+        cmocka_unit_test(steep_and_sheltered_boughs_bear_none),
         cmocka_unit_test(layers_above_keep_snow_off),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

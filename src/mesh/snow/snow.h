@@ -1,4 +1,4 @@
-// Settled snow: cushions along branches and on flat sprays.
+// Settled snow: cushions along branches, and pillows on boughs of needles.
 #ifndef RAMIFY_MESH_SNOW_SNOW_H
 #define RAMIFY_MESH_SNOW_SNOW_H
 
@@ -10,6 +10,7 @@ typedef struct SnowParams {
     float depth;    // m, on a level place in the open; 0 = none
     float steepest; // degrees from the level: snow slides off what is steeper
     float gaps;     // 0..1: share of the branches that have lost theirs
+    float bridging; // m: widest gap between twigs or needles that snow spans
 } SnowParams;
 
 // Which share (0..1) of the snow comes to p.
@@ -29,9 +30,31 @@ float snow_stays(const SnowParams *params, float level);
 Mesh *snow_on_curves(const CurveSet *curves, const bool *bare, const SnowParams *params,
                      const SnowReach *reach, const Run *run, Error *e);
 
-// The cushion on one side of a flat spray (needles, a frond), toward its +Z or, if `turned`, its
-// -Z, of cells times 2 cells along its X and Y: closed, of quads with normals. depth: m, in the
-// middle. May have no faces. The caller frees it with mesh_free.
-Mesh *snow_on_spray(const Mesh *spray, float depth, bool turned, int cells, Error *e);
+// A little of what bears a pillow, such as a few needles.
+typedef struct SnowBearer {
+    Vec3 p;     // m
+    float area; // m2
+} SnowBearer;
+
+// Pillows as they are gathered. Initialize to {0}; clear with snow_pile_clear.
+typedef struct SnowPile {
+    Vec3 *position; // m
+    int64_t vertex_count, vertex_capacity;
+    uint32_t *index; // three a face
+    int64_t index_count, index_capacity;
+} SnowPile;
+
+void snow_pile_clear(SnowPile *pile);
+
+// Adds the pillows on one bough: closed bodies of triangles that face outward, params->depth deep
+// on wide level places that snow reaches, as thick as half their width on narrow ones, with round
+// rims that overhang a little. Snow settles first on the highest bearers, then on those far below
+// its surface. The bearers are reordered. seed: of lumps and gaps.
+bool snow_add_pillows(SnowPile *pile, SnowBearer *bearer, int64_t count, const SnowParams *params,
+                      const SnowReach *reach, uint64_t seed, Error *e);
+
+// The pile as one mesh of triangles with normals; may have no faces. The caller frees it with
+// mesh_free.
+Mesh *snow_pile_mesh(const SnowPile *pile, Error *e);
 
 #endif

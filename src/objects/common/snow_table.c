@@ -12,12 +12,15 @@ static const Key SNOW_KEYS[] = {
      .doc = "Slope from which it slides off: 35 for powder, 65 for wet snow that clings."},
     {KEY_OF(SnowParams, gaps, "gaps", KEY_FLOAT), .high = 1,
      .doc = "Share of the branches that have lost theirs to wind and sun."},
+    {KEY_OF(SnowParams, bridging, "bridging", KEY_FLOAT), .high = 1, .unit = "m",
+     .doc = "Widest gap between twigs or needles that the snow spans: 0.15 after calm, moist snow, "
+            "0.05 for powder. Pillows on boughs are as thick as half their width, up to depth."},
     {0},
 };
 
 SnowParams snow_params_default(void)
 {
-    return (SnowParams){.steepest = 58.0f, .gaps = 0.25f};
+    return (SnowParams){.steepest = 58.0f, .gaps = 0.25f, .bridging = 0.12f};
 }
 
 static void snow_defaults(void *out)

@@ -174,7 +174,7 @@ static bool measure(const void *given, const Grown *grown, const Recipe *recipe,
 static void needs(const void *params, Needs *needs)
 {
     const TreeParams *tree = params;
-    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6, SNOW_BYTES = 7000 };
+    enum { LEAF_FACES = 25, LEAVES_AN_ATTRACTOR = 6, SNOW_BYTES = 9500 };
     TreeAttractors each = count_attractors(params);
     double count = (double)attractors(params), leaves = (double)tree->leaves.max_count;
     int levels = tree->skin.levels;

@@ -1,0 +1,416 @@
+#include "mesh/snow/snow_bed.h"
+
+#include "base/memory.h"
+#include "base/noise.h"
+#include "base/random.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { STREAM_GAPS = 1, STREAM_LUMPS = 2 }; // of a bough
+enum { BORDER = 4, MOST_ACROSS = 400, ROUNDINGS = 3 };
+
+#define CELL_LEAST 0.008f // m
+#define CELL_MOST 0.045f
+#define CELL_DEPTH 0.3f   // cell, in depths
+#define BEARS 0.12f       // share of a cell that must be covered to bear snow
+#define SHARE_LEAST 0.18f // of the depth: thinner snow is left out
+#define SPECK 0.004f      // m2: smaller pillows are left out
+#define STIFF 0.1f        // cells2: how little slopes follow a few tops
+#define OVERHANG 0.16f    // of the rim, in depths
+#define GAP_LENGTH 0.35f  // m, about, of a gap
+#define LUMP_LENGTH 3.2f  // of a lump, in depths
+#define LUMP_HEIGHT 0.55f // how far lumps differ from the mean, by a noise of about -0.7 .. 0.7
+#define NOWHERE 1e12f     // square of a distance, in cells: there is nothing
+
+void snow_bed_clear(SnowBed *bed)
+{
+    free(bed->height);
+    free(bed->outline);
+    free(bed->share);
+    free(bed->highest);
+}
+
+static int64_t point_count(const SnowBed *bed)
+{
+    return (int64_t)bed->across * bed->along;
+}
+
+// The point nearest to p, which must be a bearer.
+static int64_t entry_of(const SnowBed *bed, Vec3 p)
+{
+    int x = (int)((p.x - bed->low_x) / bed->cell + 0.5f);
+    int z = (int)((p.z - bed->low_z) / bed->cell + 0.5f);
+    return (int64_t)z * bed->across + x;
+}
+
+bool snow_bed_passes(const SnowBed *bed, Vec3 p)
+{
+    return p.y < bed->highest[entry_of(bed, p)] - SNOW_STEP;
+}
+
+// A grid that leaves room for the overhang and for what bridging does near the border.
+static bool lay_out(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
+                    Error *e)
+{
+    Aabb box = aabb_empty();
+    for (int64_t i = 0; i < count; i++) {
+        box = aabb_add(box, bearer[i].p);
+    }
+    Vec3 size = vec3_sub(box.high, box.low);
+    float widest = fmaxf(size.x, size.z);
+    float cell =
+        fmaxf(clampf(CELL_DEPTH * params->depth, CELL_LEAST, CELL_MOST), widest / MOST_ACROSS);
+    int border = BORDER + (int)(params->bridging / cell);
+    *bed = (SnowBed){.across = 1 + 2 * border + (int)(size.x / cell + 0.5f),
+                     .along = 1 + 2 * border + (int)(size.z / cell + 0.5f),
+                     .cell = cell,
+                     .low_x = box.low.x - (float)border * cell,
+                     .low_z = box.low.z - (float)border * cell};
+    bed->height = memory_alloc_zero(point_count(bed), sizeof(float), e);
+    bed->outline = memory_alloc_zero(point_count(bed), sizeof(float), e);
+    bed->share = memory_alloc_zero(point_count(bed), sizeof(float), e);
+    bed->highest = memory_alloc_zero(point_count(bed), sizeof(float), e);
+    return bed->height && bed->outline && bed->share && bed->highest;
+}
+
+// ---- distances ----
+
+// Room for one row or column of either.
+typedef struct Line {
+    float *value, *result, *from;
+    int *apex;
+} Line;
+
+// Squared distances along a line: the lower envelope of parabolas (Felzenszwalb and Huttenlocher
+// 2012, "Distance transforms of sampled functions").
+static void envelope(const Line *line, int count)
+{
+    const float *f = line->value;
+    int last = 0;
+    line->apex[0] = 0;
+    line->from[0] = -NOWHERE;
+    for (int i = 1; i < count; i++) {
+        float cross;
+        for (;; last--) {
+            int a = line->apex[last];
+            cross = (f[i] - f[a] + (float)(i * i) - (float)(a * a)) / (float)(2 * (i - a));
+            if (last == 0 || cross > line->from[last]) {
+                break;
+            }
+        }
+        bool first = cross <= line->from[last];
+        last = first ? last : last + 1;
+        line->apex[last] = i;
+        line->from[last] = first ? -NOWHERE : cross;
+    }
+    for (int i = 0, k = 0; i < count; i++) {
+        while (k < last && line->from[k + 1] < (float)i) {
+            k++;
+        }
+        int off = i - line->apex[k];
+        line->result[i] = (float)(off * off) + f[line->apex[k]];
+    }
+}
+
+// To every point the distance, in cells, to the nearest one where inside is `wanted`.
+static void distances(const SnowBed *bed, const bool *inside, bool wanted, const Line *line,
+                      float *distance)
+{
+    int across = bed->across, along = bed->along;
+    for (int x = 0; x < across; x++) {
+        for (int z = 0; z < along; z++) {
+            line->value[z] = inside[z * across + x] == wanted ? 0.0f : NOWHERE;
+        }
+        envelope(line, along);
+        for (int z = 0; z < along; z++) {
+            distance[z * across + x] = fminf(line->result[z], NOWHERE);
+        }
+    }
+    for (int z = 0; z < along; z++) {
+        for (int x = 0; x < across; x++) {
+            line->value[x] = distance[z * across + x];
+        }
+        envelope(line, across);
+        for (int x = 0; x < across; x++) {
+            distance[z * across + x] = sqrtf(line->result[x]);
+        }
+    }
+}
+
+// Adds (or, if not `grows`, removes) what is nearer than `reach` cells to it.
+static void dilate(const SnowBed *bed, bool *inside, bool grows, float reach, const Line *line,
+                   float *distance)
+{
+    distances(bed, inside, grows, line, distance);
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        inside[i] = distance[i] < reach ? grows : inside[i];
+    }
+}
+
+// ---- fields ----
+
+// Each point becomes the mean of those up to `reach` points beside it, along x and then z.
+static void box_blur(const SnowBed *bed, float *field, int reach, float *line)
+{
+    for (int turn = 0; turn < 2; turn++) {
+        int count = turn == 0 ? bed->across : bed->along, step = turn == 0 ? 1 : bed->across;
+        int lines = turn == 0 ? bed->along : bed->across, next = turn == 0 ? bed->across : 1;
+        for (int k = 0; k < lines; k++) {
+            float *first = field + (int64_t)k * next;
+            for (int i = 0; i < count; i++) {
+                float sum = 0.0f;
+                for (int d = -reach; d <= reach; d++) {
+                    sum += i + d >= 0 && i + d < count ? first[(int64_t)(i + d) * step] : 0.0f;
+                }
+                line[i] = sum / (float)(2 * reach + 1);
+            }
+            for (int i = 0; i < count; i++) {
+                first[(int64_t)i * step] = line[i];
+            }
+        }
+    }
+}
+
+// Each point becomes the greatest of those up to `reach` points beside it, along x and then z.
+static void spread_greatest(const SnowBed *bed, float *field, int reach, float *line)
+{
+    for (int turn = 0; turn < 2; turn++) {
+        int count = turn == 0 ? bed->across : bed->along, step = turn == 0 ? 1 : bed->across;
+        int lines = turn == 0 ? bed->along : bed->across, next = turn == 0 ? bed->across : 1;
+        for (int k = 0; k < lines; k++) {
+            float *first = field + (int64_t)k * next;
+            for (int i = 0; i < count; i++) {
+                line[i] = -INFINITY;
+                for (int d = -reach; d <= reach; d++) {
+                    if (i + d >= 0 && i + d < count) {
+                        line[i] = fmaxf(line[i], first[(int64_t)(i + d) * step]);
+                    }
+                }
+            }
+            for (int i = 0; i < count; i++) {
+                first[(int64_t)i * step] = line[i];
+            }
+        }
+    }
+}
+
+// The highest bearer at every point and near it, and the points that bear snow: enough is there,
+// and nothing stands far above them. top: m, NAN where there is none.
+static void gather(SnowBed *bed, const SnowBearer *bearer, int64_t count, int reach, bool *inside,
+                   float *top, float *line)
+{
+    float *area = bed->share;
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        bed->highest[i] = -INFINITY;
+    }
+    for (int64_t i = 0; i < count; i++) {
+        int64_t at = entry_of(bed, bearer[i].p);
+        bed->highest[at] = fmaxf(bed->highest[at], bearer[i].p.y);
+        area[at] += bearer[i].area;
+    }
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        inside[i] = area[i] >= BEARS * bed->cell * bed->cell;
+        top[i] = inside[i] ? bed->highest[i] : NAN;
+    }
+    spread_greatest(bed, bed->highest, reach, line);
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        if (inside[i] && top[i] < bed->highest[i] - SNOW_STEP) {
+            inside[i] = false;
+            top[i] = NAN;
+        }
+    }
+}
+
+// A plane over the tops about a point.
+typedef struct Slope {
+    float height; // m, at the point
+    float x, z;   // slopes; 0 without tops
+    bool none;    // there is no top in reach
+} Slope;
+
+// Snow lies on the tops, evened out over the gaps that it spans: moving least squares of planes,
+// weighted by distance, which neither level nor bend the rims of slopes.
+static Slope fit(const SnowBed *bed, const float *top, int x, int z, float reach)
+{
+    int far = (int)reach;
+    float weight = 0.0f, mean[3] = {0}, cross[5] = {0}; // x, z, y; xx, zz, xz, xy, zy
+    float middle = 0.0f;
+    for (int dz = -far; dz <= far; dz++) {
+        for (int dx = -far; dx <= far; dx++) {
+            bool off = x + dx < 0 || z + dz < 0 || x + dx >= bed->across || z + dz >= bed->along;
+            float share = 1.0f - (float)(dx * dx + dz * dz) / (reach * reach);
+            float y = off ? NAN : top[(int64_t)(z + dz) * bed->across + x + dx];
+            if (isnan(y) || share <= 0.0f) {
+                continue;
+            }
+            middle = weight == 0.0f ? y : middle; // keeps the sums precise
+            float w = share * share, fx = (float)dx, fz = (float)dz, fy = y - middle;
+            const float add[5] = {fx * fx, fz * fz, fx * fz, fx * fy, fz * fy};
+            weight += w;
+            mean[0] += w * fx;
+            mean[1] += w * fz;
+            mean[2] += w * fy;
+            for (int k = 0; k < 5; k++) {
+                cross[k] += w * add[k];
+            }
+        }
+    }
+    if (weight == 0.0f) {
+        return (Slope){.none = true};
+    }
+    for (int k = 0; k < 3; k++) {
+        mean[k] /= weight;
+    }
+    float xx = cross[0] / weight - mean[0] * mean[0] + STIFF;
+    float zz = cross[1] / weight - mean[1] * mean[1] + STIFF;
+    float xz = cross[2] / weight - mean[0] * mean[1];
+    float xy = cross[3] / weight - mean[0] * mean[2], zy = cross[4] / weight - mean[1] * mean[2];
+    float whole = xx * zz - xz * xz;
+    Slope slope = {.x = (xy * zz - zy * xz) / whole, .z = (zy * xx - xy * xz) / whole};
+    slope.height = middle + mean[2] - slope.x * mean[0] - slope.z * mean[1];
+    slope.x /= bed->cell;
+    slope.z /= bed->cell;
+    return slope;
+}
+
+// 0 in gaps, else 1 and lumps.
+static float unevenness(const SnowParams *params, Vec3 p, uint64_t seed)
+{
+    float length = LUMP_LENGTH * params->depth, gap = 1.0f;
+    float lump = noise_plane(p.x / length, p.z / length, random_key(seed, STREAM_LUMPS));
+    if (params->gaps > 0.0f) {
+        float wave = noise_plane(p.x / GAP_LENGTH, p.z / GAP_LENGTH, random_key(seed, STREAM_GAPS));
+        float edge = -0.5f + params->gaps;
+        gap = smoothstepf(edge - 0.08f, edge + 0.08f, wave);
+    }
+    return gap * (1.0f + LUMP_HEIGHT * lump);
+}
+
+// The surface, and how much of the full depth lies at each point: less on slopes and below other
+// boughs. Snow that would be too thin is left out.
+static void set_surface(SnowBed *bed, const SnowParams *params, const SnowReach *reach,
+                        uint64_t seed, bool *inside, const float *top)
+{
+    float far = 0.5f * params->bridging / bed->cell + 4.0f;
+    for (int i = 0; i < bed->across * bed->along; i++) {
+        int x = i % bed->across, z = i / bed->across;
+        bool none = bed->highest[i] == -INFINITY; // all around
+        Slope slope = none ? (Slope){.none = true} : fit(bed, top, x, z, far);
+        float level = 1.0f / sqrtf(1.0f + slope.x * slope.x + slope.z * slope.z);
+        Vec3 p = vec3(bed->low_x + (float)x * bed->cell, slope.height,
+                      bed->low_z + (float)z * bed->cell);
+        bed->height[i] = slope.height;
+        bed->share[i] = slope.none ? 0.0f
+                                   : unevenness(params, p, seed) * snow_stays(params, level) *
+                                         reach->share(reach->user, p);
+        inside[i] = inside[i] && bed->share[i] >= SHARE_LEAST;
+    }
+}
+
+// Takes out what is so small that it would look like a flake in the air.
+static void drop_specks(const SnowBed *bed, bool *inside, int32_t *stack, bool *seen)
+{
+    const int64_t beside[4] = {-1, 1, -bed->across, bed->across};
+    int64_t least = 1 + (int64_t)(SPECK / (bed->cell * bed->cell));
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        int64_t count = 0;
+        if (inside[i] && !seen[i]) {
+            seen[i] = true;
+            stack[count++] = (int32_t)i;
+        }
+        for (int64_t k = 0; k < count; k++) {
+            for (int n = 0; n < 4; n++) {
+                int64_t other = stack[k] + beside[n];
+                if (inside[other] && !seen[other]) {
+                    seen[other] = true;
+                    stack[count++] = (int32_t)other;
+                }
+            }
+        }
+        for (int64_t k = 0; k < count && count < least; k++) {
+            inside[stack[k]] = false;
+        }
+    }
+}
+
+// Signed distances to the border of what is inside, rounded.
+static void set_outline(SnowBed *bed, const bool *inside, const Line *line, float overhang,
+                        float *distance)
+{
+    distances(bed, inside, false, line, distance);
+    distances(bed, inside, true, line, bed->outline);
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        float cells = inside[i] ? distance[i] - 0.5f : 0.5f - bed->outline[i];
+        bed->outline[i] = bed->cell * clampf(cells, -30.0f, 30.0f) + overhang;
+    }
+    for (int turn = 0; turn < ROUNDINGS; turn++) {
+        box_blur(bed, bed->outline, 1, line->value);
+    }
+}
+
+// Room for the steps of a bed.
+typedef struct Room {
+    Line line;
+    bool *inside, *seen; // per point
+    float *field, *top;
+    int32_t *stack;
+} Room;
+
+static void shape(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
+                  const SnowReach *reach, uint64_t seed, const Room *room)
+{
+    float span = 0.5f * params->bridging / bed->cell + 0.5f;
+    gather(bed, bearer, count, 1 + (int)span, room->inside, room->top, room->line.value);
+    dilate(bed, room->inside, true, span, &room->line, room->field); // closing: gaps become snow
+    dilate(bed, room->inside, false, span, &room->line, room->field);
+    set_surface(bed, params, reach, seed, room->inside, room->top);
+    drop_specks(bed, room->inside, room->stack, room->seen);
+    set_outline(bed, room->inside, &room->line, OVERHANG * params->depth, room->field);
+    box_blur(bed, bed->share, 1, room->line.value);
+}
+
+static void room_clear(Room *room)
+{
+    free(room->line.value);
+    free(room->line.result);
+    free(room->line.from);
+    free(room->line.apex);
+    free(room->inside);
+    free(room->seen);
+    free(room->field);
+    free(room->top);
+    free(room->stack);
+}
+
+static bool room_init(Room *room, const SnowBed *bed, Error *e)
+{
+    int64_t points = point_count(bed);
+    int longest = bed->across > bed->along ? bed->across : bed->along;
+    *room = (Room){.line = {.value = memory_alloc(longest, sizeof(float), e),
+                            .result = memory_alloc(longest, sizeof(float), e),
+                            .from = memory_alloc(longest, sizeof(float), e),
+                            .apex = memory_alloc(longest, sizeof(int), e)},
+                   .inside = memory_alloc_zero(points, sizeof(bool), e),
+                   .seen = memory_alloc_zero(points, sizeof(bool), e),
+                   .field = memory_alloc(points, sizeof(float), e),
+                   .top = memory_alloc(points, sizeof(float), e),
+                   .stack = memory_alloc(points, sizeof(int32_t), e)};
+    const Line *line = &room->line;
+    return line->value && line->result && line->from && line->apex && room->inside && room->seen &&
+           room->field && room->top && room->stack;
+}
+
+bool snow_bed_init(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
+                   const SnowReach *reach, uint64_t seed, Error *e)
+{
+    Room room = {0};
+    bool done = lay_out(bed, bearer, count, params, e) && room_init(&room, bed, e);
+    if (done) {
+        shape(bed, bearer, count, params, reach, seed, &room);
+    } else {
+        snow_bed_clear(bed);
+    }
+    room_clear(&room);
+    return done;
+}
