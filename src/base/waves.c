@@ -254,7 +254,7 @@ static float lumps_at(float x, float z, float largest, float width)
 // farthest, and falls as the lip runs ahead.
 Vec3 waves_thrown(const Waves *waves, float x, float z, float width, const float sum[WAVE_CHANNELS])
 {
-    const float most = 3.0f, drop = 0.35f, lump = 0.9f, boils = 0.14f; // deviations; shares; m
+    const float most = 3.0f, drop = 0.35f, lump = 0.9f, boils = 0.10f; // deviations; shares; m
     float excess = excess_of(waves, sum);
     if (waves->breakers <= 0.0f || !(excess > 0.0f)) {
         return vec3(0.0f, 0.0f, 0.0f);
@@ -329,12 +329,15 @@ static float old_surf(const Waves *waves, const WavePoint *point)
 // of the wave, longer than they are wide.
 static float roller(const Waves *waves, const WavePoint *point, float from)
 {
-    const float torn = 0.8f, edge = 0.4f; // deviations
+    const float torn = 0.8f, edge = 0.4f, steep = 0.35f, lean = 0.3f; // deviations; slope
     float spread = waves->spread, crowding = fmaxf(point->crowding, point->spill);
-    if (crowding < from - torn * spread) {
+    if (crowding < from - (torn + lean) * spread) {
         return 0.0f;
     }
     Vec2 way = waves->way, at = point->place;
+    float fall = (point->normal.x * way.x + point->normal.z * way.y) / point->normal.y;
+    float open = 1.0f - point->breaking;
+    crowding += open * lean * spread * clampf(fall / steep, -1.0f, 1.0f);
     float along = at.x * way.x + at.y * way.y, across = at.y * way.x - at.x * way.y;
     crowding += torn * spread * lumps_at(0.55f * along, across, 1.4f, point->width);
     return smoothstepf(from, from + edge * spread, crowding);
@@ -346,7 +349,7 @@ static float roller(const Waves *waves, const WavePoint *point, float from)
 static float streaks(const Waves *waves, const WavePoint *point)
 {
     static const float spacing[] = {11.0f, 4.3f}; // m
-    const float longer = 14.0f, mean = 0.124f;    // mean: of the product below
+    const float longer = 14.0f, mean = 0.0933f;   // mean: of the product below
     Vec2 way = waves->way, at = point->place;
     float along = at.x * way.x + at.y * way.y, across = at.y * way.x - at.x * way.y;
     float share = 1.0f, seen = smoothstepf(2.0f, 0.5f, point->width);
@@ -354,7 +357,7 @@ static float streaks(const Waves *waves, const WavePoint *point)
         float size = spacing[i];
         float bend = 0.5f * noise_plane(along / (4.0f * size), across / (4.0f * size), 9341 + i);
         float line = noise_plane(along / (longer * size), across / size + bend, 9351 + i);
-        share *= smoothstepf(-0.05f, 0.45f, line);
+        share *= smoothstepf(-0.1f, 0.3f, line);
     }
     return waves->streaks * lerpf(1.0f, share / mean, seen);
 }

@@ -25,8 +25,8 @@ enum {
 #define TRAIL_SECONDS 4.0 // that foam lasts
 #define TRAIL_FADE 0.05   // crowding that a trail loses in a second
 #define FOAM_SECONDS 6.0  // after which nothing is left of foam in the open sea
-#define SPILL_SECONDS 0.5 // by which a roller runs ahead of its crest at most
-#define SPILL_FADE 0.6    // crowding that it needs for a second
+#define SPILL_SECONDS 0.6 // by which a roller runs ahead of its crest at most
+#define SPILL_FADE 0.4    // crowding that it needs for a second
 
 // ---- waves
 
