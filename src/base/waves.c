@@ -254,7 +254,7 @@ static float lumps_at(float x, float z, float largest, float width)
 // farthest, and falls as the lip runs ahead.
 Vec3 waves_thrown(const Waves *waves, float x, float z, float width, const float sum[WAVE_CHANNELS])
 {
-    const float most = 3.0f, drop = 0.35f, lump = 0.9f, boils = 0.08f; // deviations; shares; m
+    const float most = 3.0f, drop = 0.35f, lump = 0.9f, boils = 0.10f; // deviations; shares; m
     float excess = excess_of(waves, sum);
     if (waves->breakers <= 0.0f || !(excess > 0.0f)) {
         return vec3(0.0f, 0.0f, 0.0f);
@@ -305,6 +305,10 @@ void waves_at(const Waves *waves, float x, float z, float width, WavePoint *poin
     point->normal = normal_of(waves, sum);
     point->crowding = waves->choppiness * sum[WAVE_CROWDING];
     point->trail = waves->choppiness * sum[WAVE_TRAIL];
+    point->spill = waves->choppiness * sum[WAVE_SPILL];
+    point->left = clampf(sum[WAVE_FOAM], 0.0f, 1.0f);
+    point->place = (Vec2){x, z};
+    point->width = width;
     point->roughness2 = hidden_variance(waves, fmaxf(2.0f * width, waves->shortest));
     if (waves->breakers > 0.0f && excess_of(waves, sum) > 0.0f) {
         throw_crest(waves, x, z, width, sum, point);
@@ -321,13 +325,58 @@ static float old_surf(const Waves *waves, const WavePoint *point)
     return lasts * fmaxf(near * point->breaking, 0.16f * point->drift * point->drift);
 }
 
-float waves_foam(const Waves *waves, const WavePoint *point)
+// How white a crest that breaks now is. Its edge is torn into tongues that run ahead on the front
+// of the wave, longer than they are wide.
+static float roller(const Waves *waves, const WavePoint *point, float from)
 {
-    // In surf waves of any steepness break, and the foam of a breaker lasts to the next one.
-    float from = waves->foam * (1.0f - 0.85f * point->breaking), spread = waves->spread;
-    const float dense = 0.94f; // water shows between the lumps of the freshest foam
-    float crest = dense * smoothstepf(from, from + 1.2f * spread, point->crowding);
-    float trail = smoothstepf(from, from + 2.2f * spread, point->trail);
-    float old = point->drift > 0.0f ? old_surf(waves, point) : 0.0f;
-    return fmaxf(crest, 1.0f - (1.0f - 0.75f * trail) * (1.0f - old));
+    const float torn = 0.8f, edge = 0.4f, steep = 0.35f, lean = 0.3f; // deviations; slope
+    float spread = waves->spread, crowding = fmaxf(point->crowding, point->spill);
+    if (crowding < from - (torn + lean) * spread) {
+        return 0.0f;
+    }
+    Vec2 way = waves->way, at = point->place;
+    float fall = (point->normal.x * way.x + point->normal.z * way.y) / point->normal.y;
+    float open = 1.0f - point->breaking;
+    crowding += open * lean * spread * clampf(fall / steep, -1.0f, 1.0f);
+    float along = at.x * way.x + at.y * way.y, across = at.y * way.x - at.x * way.y;
+    crowding += torn * spread * lumps_at(0.55f * along, across, 1.4f, point->width);
+    return smoothstepf(from, from + edge * spread, crowding);
+}
+
+// Share of foam that drifts in lines along the wind, where the water of Langmuir's cells meets:
+// some metres to tens of metres from each other, each ending after some tens of metres. Its mean
+// over places is that of the sea.
+static float streaks(const Waves *waves, const WavePoint *point)
+{
+    static const float spacing[] = {11.0f, 4.3f}; // m
+    const float longer = 14.0f, mean = 0.0933f;   // mean: of the product below
+    Vec2 way = waves->way, at = point->place;
+    float along = at.x * way.x + at.y * way.y, across = at.y * way.x - at.x * way.y;
+    float share = 1.0f, seen = smoothstepf(2.0f, 0.5f, point->width);
+    for (uint64_t i = 0; i < 2; i++) {
+        float size = spacing[i];
+        float bend = 0.5f * noise_plane(along / (4.0f * size), across / (4.0f * size), 9341 + i);
+        float line = noise_plane(along / (longer * size), across / size + bend, 9351 + i);
+        share *= smoothstepf(-0.1f, 0.3f, line);
+    }
+    return waves->streaks * lerpf(1.0f, share / mean, seen);
+}
+
+WaveFoam waves_foam(const Waves *waves, const WavePoint *point)
+{
+    // In surf waves of any steepness break, and the foam of a breaker lasts to the next one. In the
+    // open sea few crests roll at a time; what they leave lasts longer.
+    const float dense = 0.8f, widest = 0.6f, most = 0.6f;
+    float spread = waves->spread;
+    float from = waves->foam * (1.0f - 0.9f * point->breaking);
+    float crest = dense * roller(waves, point, from);
+    float trail = point->breaking * smoothstepf(from, from + 2.2f * spread, point->trail);
+    float surf = point->drift > 0.0f ? old_surf(waves, point) : 0.0f;
+    float lines = waves->streaks > 0.0f ? fminf(streaks(waves, point), most) : 0.0f;
+    float left = point->left * point->left;
+    float old =
+        1.0f - (1.0f - 0.75f * trail) * (1.0f - surf) * (1.0f - lines) * (1.0f - widest * left);
+    float cover = fmaxf(crest, old);
+    float bubbles = fmaxf(cover, fmaxf(point->left, trail));
+    return (WaveFoam){cover, cover > 0.0f ? crest / cover : 0.0f, bubbles};
 }

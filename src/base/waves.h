@@ -28,6 +28,8 @@ enum {
     WAVE_STRETCH_XZ,
     WAVE_CROWDING, // by how much the waves that break draw water together
     WAVE_TRAIL,    // the greatest crowding of the last seconds, less its age
+    WAVE_SPILL, // that of the next moments, less the time until then: a crest is about to roll in
+    WAVE_FOAM,  // 0..1: what is left of the foam of the last crest that broke there
     WAVE_CHANNELS
 };
 
@@ -62,6 +64,7 @@ typedef struct Waves {
     float spread;     // of the crowding: its standard deviation
     float shortest;   // m: the shortest wave of all tiles
     float breakers;   // 0..: by how much of their height crests that break fall forward
+    float streaks;    // share of the sea that foam covers in lines along the wind
     // Variance of the slopes of all waves shorter than 2^(WAVES_BAND_FIRST + i / 4) m, summed over
     // both axes: what a surface without these has as roughness.
     float hidden[WAVES_BANDS];
@@ -80,8 +83,12 @@ double waves_mean_square(const WaveTile *tile, int channel);
 typedef struct WavePoint {
     Vec3 displacement; // m; y = the height above the calm surface
     Vec3 normal;       // unit
-    float crowding;    // of the waves, and of the last seconds
+    Vec2 place;        // m: x and z of the parcel at rest
+    float width;       // m: as asked for
+    float crowding;    // of the waves, of the last seconds, and of the next moments
     float trail;
+    float spill;
+    float left;       // 0..1: what is left of the foam of the last crest that broke there
     float breaking;   // 0..1: of the surf
     float drift;      // 0..1: how near the surf is
     float depth;      // m of still water; INFINITY without a shore
@@ -97,8 +104,16 @@ Vec3 waves_thrown(const Waves *waves, float x, float z, float width,
 // Leaves out waves shorter than twice `width` m.
 void waves_at(const Waves *waves, float x, float z, float width, WavePoint *point);
 
-// Share of the surface at the point that foam covers, 0..1, before its lace.
-float waves_foam(const Waves *waves, const WavePoint *point);
+// Foam about a point, before its lace; each 0..1.
+typedef struct WaveFoam {
+    float cover;   // share of the surface that it hides
+    float fresh;   // how much of it is the thick roller of a crest that breaks now; the rest is old
+    float bubbles; // how full of bubbles the water below it is
+} WaveFoam;
+
+// A roller lies on the front of its crest down to a ragged edge; behind it foam thins out with its
+// age; in a strong wind some of it drifts in lines along the wind (Langmuir 1938).
+WaveFoam waves_foam(const Waves *waves, const WavePoint *point);
 
 // Depth of still water (m) by the grid; negative on land.
 float waves_depth(const WavesShore *shore, float x, float z);

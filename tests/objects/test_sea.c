@@ -1,6 +1,7 @@
 // The sea: its spectrum against what was measured at sea, its surface against its spectrum, its
 // waves against the dispersion relation, its foam against observed whitecaps, and its surf against
 // the depth.
+#include "base/random.h"
 #include "objects/sea/drops.h"
 #include "objects/sea/sea.h"
 #include "testing.h"
@@ -192,30 +193,76 @@ static void bits_do_not_depend_on_threads(void **state)
     mesh_free(mesh[1]);
 }
 
-// Within a factor of 2 of Monahan's whitecaps, which scatter by as much themselves.
+// Within a factor of 2 of Monahan's whitecaps, which scatter by as much themselves. Crests that
+// break now are the smaller part of it: a tenth to a half (Monahan and Lu 1990). They roll down the
+// front of the wave, and old foam is left on its back.
 static void foam_covers_what_whitecaps_do(void **state)
 {
     (void)state;
     enum { SIDE = 400 };
-    const float wind[] = {10.0f, 15.0f};
-    for (int i = 0; i < 2; i++) {
+    const float wind[] = {10.0f, 15.0f, 20.0f};
+    for (int i = 0; i < 3; i++) {
         SeaParams sea = sea_params_default();
         sea.wind = wind[i];
         Waves *waves = waves_of(&sea, 7, 2);
-        double foam = 0.0, size = (double)waves->tile[0].size;
+        double cover = 0.0, fresh = 0.0, front = 0.0, back = 0.0,
+               size = (double)waves->tile[0].size;
         for (int k = 0; k < SIDE * SIDE; k++) {
             WavePoint point;
             waves_at(waves, (float)(size * (k % SIDE) / SIDE), (float)(size * (k / SIDE) / SIDE),
                      0.0f, &point);
-            foam += (double)waves_foam(waves, &point);
+            WaveFoam foam = waves_foam(waves, &point);
+            assert_true(foam.cover >= 0.0f && foam.cover <= foam.bubbles && foam.bubbles <= 1.0f);
+            cover += (double)foam.cover;
+            fresh += (double)(foam.fresh * foam.cover);
+            Vec3 n = point.normal;
+            float rise = -(n.x * waves->way.x + n.z * waves->way.y) / n.y; // along the way
+            front += (double)(foam.fresh * foam.cover * rise);
+            back += (double)((1.0f - foam.fresh) * foam.cover * rise);
         }
-        foam /= SIDE * SIDE;
+        printf("    slope along the way: %.3f where foam is fresh, %.3f where it is old\n",
+               front / fresh, back / (cover - fresh));
+        assert_true(front < 0.0 && back > 0.0);
+        cover /= SIDE * SIDE;
+        fresh /= SIDE * SIDE;
         double seen = monahan_whitecaps((double)wind[i]);
-        printf("    wind %2.0f m/s: foam %.2f %%, Monahan %.2f %%\n", (double)wind[i], 100.0 * foam,
-               100.0 * seen);
-        assert_true(foam > 0.5 * seen && foam < 2.0 * seen);
+        printf("    wind %2.0f m/s: foam %.2f %%, Monahan %.2f %%; breaks now %.2f %%\n",
+               (double)wind[i], 100.0 * cover, 100.0 * seen, 100.0 * fresh);
+        assert_true(cover > 0.5 * seen && cover < 2.0 * seen);
+        assert_true(fresh > 0.1 * cover && fresh < 0.5 * cover);
         waves_free(waves);
     }
+}
+
+// Foam in lines along the wind has the mean that is asked for, and is alike over ten times as far
+// along as across it; a wide pixel shows the mean.
+static void lines_of_foam_follow_the_wind(void **state)
+{
+    (void)state;
+    enum { PLACES = 60000 };
+    Waves waves = {.way = {0.6f, 0.8f}, .foam = 1.0f, .spread = 0.4f, .streaks = 0.01f};
+    const Vec2 to[] = {{0.0f, 0.0f}, {12.0f, 16.0f}, {-1.6f, 1.2f}}; // none, 20 m along, 2 m across
+    double sum = 0.0, product[3] = {0};
+    for (uint64_t i = 0; i < PLACES; i++) {
+        float foam[3];
+        WavePoint point = {.depth = INFINITY, .normal = {0.0f, 1.0f, 0.0f}};
+        Vec2 at = {random_range(random_key(5, 2 * i), -2000.0f, 2000.0f),
+                   random_range(random_key(5, 2 * i + 1), -2000.0f, 2000.0f)};
+        for (int k = 0; k < 3; k++) {
+            point.place = (Vec2){at.x + to[k].x, at.y + to[k].y};
+            foam[k] = waves_foam(&waves, &point).cover;
+            product[k] += (double)(foam[0] * foam[k]);
+        }
+        sum += (double)foam[0];
+        point.width = 50.0f;
+        assert_float_equal(waves_foam(&waves, &point).cover, 0.01f, 1e-6f);
+    }
+    double mean = sum / PLACES, variance = product[0] / PLACES - mean * mean;
+    double along = (product[1] / PLACES - mean * mean) / variance;
+    double across = (product[2] / PLACES - mean * mean) / variance;
+    printf("    mean %.4f; correlation %.2f over 20 m along, %.2f over 2 m across\n", mean, along,
+           across);
+    assert_true(fabs(mean - 0.01) < 0.001 && along > across);
 }
 
 // The height of the longest waves at a place.
@@ -454,7 +501,7 @@ static double foam_near(const Waves *waves, float x)
     for (float z = -300.0f; z < 300.0f; z += 0.7f, count++) {
         WavePoint point;
         waves_at(waves, x + 4.0f * remainderf(0.618f * z, 1.0f), z, 0.0f, &point);
-        float foam = waves_foam(waves, &point);
+        float foam = waves_foam(waves, &point).cover;
         assert_true(foam >= 0.0f && foam <= 1.0f);
         sum += (double)foam;
     }
@@ -540,6 +587,7 @@ int main(void)
         cmocka_unit_test(waves_move_as_water_waves_do),
         cmocka_unit_test(bits_do_not_depend_on_threads),
         cmocka_unit_test(foam_covers_what_whitecaps_do),
+        cmocka_unit_test(lines_of_foam_follow_the_wind),
         cmocka_unit_test(great_wave_stands_where_it_is_asked_for),
         cmocka_unit_test(crests_that_break_fall_forward),
         cmocka_unit_test(normals_of_breakers_are_those_of_the_surface),

@@ -21,7 +21,7 @@ bool sea_measure(const void *given, const Grown *grown, const Recipe *recipe, Me
         float x = (float)(size * column / SAMPLES), z = (float)(size * row / SAMPLES);
         waves_at(waves, x, z, 0.0f, &point);
         squares += (double)point.displacement.y * (double)point.displacement.y;
-        foam += (double)waves_foam(waves, &point);
+        foam += (double)waves_foam(waves, &point).cover;
     }
     waves_free(waves);
     double count = (double)SAMPLES * SAMPLES, nan = (double)NAN;

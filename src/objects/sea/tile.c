@@ -17,11 +17,16 @@ enum {
     LEAST_SIDE = 8, // of the coarsest level
     SUBDIVISION = 4,
     TRAIL_STEPS = 16,
+    SPILL_STEPS = 4,
+    FOAM_STEPS = 16,
     WAVE_PAIRS = 5 // transforms of a level, each of two fields
 };
 
 #define TRAIL_SECONDS 4.0 // that foam lasts
 #define TRAIL_FADE 0.05   // crowding that a trail loses in a second
+#define FOAM_SECONDS 6.0  // after which nothing is left of foam in the open sea
+#define SPILL_SECONDS 0.6 // by which a roller runs ahead of its crest at most
+#define SPILL_FADE 0.4    // crowding that it needs for a second
 
 // ---- waves
 
@@ -37,6 +42,7 @@ typedef struct Synthesis {
     SeaTile with;
     WaveTile *tile;
     WaveMode *mode; // owned: MODES a side, of numbers -MOST_NUMBER .. MOST_NUMBER
+    double spread;  // of the crowding: its standard deviation
 } Synthesis;
 
 enum { MOST_NUMBER = SIDE / 4, MODES = 2 * MOST_NUMBER + 1 };
@@ -273,19 +279,41 @@ static void store(const Square *q, float *texel, int first, int second)
     }
 }
 
-// The greatest crowding of the last seconds, which fades with age.
-static void find_trail(const Synthesis *s, Square *q, float *texel)
+// The greatest crowding of the next `seconds`, which fades with the time until then; of the last
+// ones if they are negative. `channel` has that of now.
+static void find_greatest(const Synthesis *s, Square *q, float *texel, int channel, double seconds,
+                          int steps, double fade)
 {
-    double now = (double)s->with.params->time, step = TRAIL_SECONDS / TRAIL_STEPS;
-    for (int i = 0; i < TRAIL_STEPS; i += 2) {
-        double age = (i + 1) * step;
-        fill(s, q, (WaveField){WAVE_CROWDING, now - age},
-             (WaveField){WAVE_CROWDING, now - age - step});
+    double now = (double)s->with.params->time, step = seconds / steps;
+    for (int i = 1; i <= steps; i += 2) {
+        double first = i * step, second = first + step;
+        fill(s, q, (WaveField){WAVE_CROWDING, now + first},
+             (WaveField){WAVE_CROWDING, now + second});
         square_transform(q);
         for (int64_t k = 0; k < (int64_t)q->side * q->side; k++) {
-            float *trail = &texel[k * WAVE_CHANNELS + WAVE_TRAIL];
-            *trail = fmaxf(*trail, (float)(q->value[k].re - age * TRAIL_FADE));
-            *trail = fmaxf(*trail, (float)(q->value[k].im - (age + step) * TRAIL_FADE));
+            float *most = &texel[k * WAVE_CHANNELS + channel];
+            *most = fmaxf(*most, (float)(q->value[k].re - fabs(first) * fade));
+            *most = fmaxf(*most, (float)(q->value[k].im - fabs(second) * fade));
+        }
+    }
+}
+
+// What is left of the foam of crests that broke in the last seconds.
+static void find_left(const Synthesis *s, Square *q, float *texel)
+{
+    const double full = 0.5; // deviations by which the foam of a crest grows to its whole
+    double now = (double)s->with.params->time, step = FOAM_SECONDS / FOAM_STEPS;
+    float from = (float)(s->with.breaking * s->spread);
+    float to = (float)((s->with.breaking + full) * s->spread);
+    for (int i = 0; i < FOAM_STEPS; i += 2) {
+        fill(s, q, (WaveField){WAVE_CROWDING, now - i * step},
+             (WaveField){WAVE_CROWDING, now - (i + 1) * step});
+        square_transform(q);
+        float first = 1.0f - (float)i / FOAM_STEPS, second = 1.0f - (float)(i + 1) / FOAM_STEPS;
+        for (int64_t k = 0; k < (int64_t)q->side * q->side; k++) {
+            float *left = &texel[k * WAVE_CHANNELS + WAVE_FOAM];
+            *left = fmaxf(*left, first * smoothstepf(from, to, (float)q->value[k].re));
+            *left = fmaxf(*left, second * smoothstepf(from, to, (float)q->value[k].im));
         }
     }
 }
@@ -310,11 +338,30 @@ static bool make_level(const Synthesis *s, int level, Error *e)
         square_transform(&square);
         store(&square, texel, pair[i][0], pair[i][1]);
     }
+    for (int64_t k = 0; k < (int64_t)side * side; k++) {
+        texel[k * WAVE_CHANNELS + WAVE_SPILL] = texel[k * WAVE_CHANNELS + WAVE_CROWDING];
+        texel[k * WAVE_CHANNELS + WAVE_FOAM] = 0.0f;
+    }
     if (s->with.trails) {
-        find_trail(s, &square, texel);
+        find_greatest(s, &square, texel, WAVE_TRAIL, -TRAIL_SECONDS, TRAIL_STEPS, TRAIL_FADE);
+        find_greatest(s, &square, texel, WAVE_SPILL, SPILL_SECONDS, SPILL_STEPS, SPILL_FADE);
+        find_left(s, &square, texel);
     }
     square_clear(&square);
     return true;
+}
+
+// Standard deviation of the crowding.
+static double crowding_spread(const Synthesis *s)
+{
+    double squares = 0.0;
+    for (int i = 0; i < MODES * MODES; i++) {
+        const WaveMode *mode = &s->mode[i];
+        double crowding = mode->k * mode->breaks;
+        Complex a = mode->amplitude;
+        squares += 2.0 * crowding * crowding * (a.re * a.re + a.im * a.im);
+    }
+    return sqrt(squares);
 }
 
 bool sea_tile_fill(const SeaTile *with, WaveTile *tile, Error *e)
@@ -324,6 +371,7 @@ bool sea_tile_fill(const SeaTile *with, WaveTile *tile, Error *e)
     if (done && with->has_crest && with->params->crest_height > 0.0f) {
         add_crest(&s);
     }
+    s.spread = done ? crowding_spread(&s) : 0.0;
     tile->levels = 0;
     while (tile->levels < WAVES_LEVELS && SIDE >> tile->levels >= LEAST_SIDE) {
         tile->levels++;

@@ -11,6 +11,7 @@ typedef struct SeaTile {
     WaveSpectrum spectrum;
     double low, high; // 1/m: the band of wave numbers
     double breaker;   // m: the shortest wave that breaks
+    double breaking;  // standard deviations of the crowding from which they do
     bool trails;      // does its foam last?
     bool has_crest;   // are its waves those of the great wave?
     uint64_t key;

@@ -16,7 +16,7 @@ static const double TURN = 6.28318530717958647692;
 #define LEAST_BREAKER 0.5
 // Crowding, with that of the waves too short for tiles, from which water breaks: Monahan's
 // whitecaps at 10 and 15 m/s (tests/objects/test_sea.c).
-#define BREAKING_CROWDING 0.41
+#define BREAKING_CROWDING 0.55
 
 WaveSpectrum sea_spectrum(const SeaParams *params)
 {
@@ -63,6 +63,13 @@ static void find_hidden(Waves *waves, const WaveSpectrum *s, double wind)
     }
 }
 
+// Standard deviations of the crowding from which waves break; without foam, none does.
+static double breaking_of(const SeaParams *params)
+{
+    double most = BREAKING_CROWDING / sqrt(cox_munk_slopes((double)params->wind));
+    return params->foam > 0.0f ? most / (double)params->foam : 1e9;
+}
+
 // From which crowding waves break: the shorter ones, on their crests, add to it as the wind adds to
 // the slopes of the sea.
 static void find_breaking(Waves *waves, const SeaParams *params)
@@ -72,9 +79,17 @@ static void find_breaking(Waves *waves, const SeaParams *params)
         squares += waves_mean_square(&waves->tile[i], WAVE_CROWDING);
     }
     double spread = sqrt(squares);
-    double most = BREAKING_CROWDING / sqrt(cox_munk_slopes((double)params->wind));
     waves->spread = params->choppiness * (float)spread;
-    waves->foam = params->foam > 0.0f ? waves->spread * (float)most / params->foam : 1e9f;
+    waves->foam = params->foam > 0.0f ? waves->spread * (float)breaking_of(params) : 1e9f;
+}
+
+// Foam lies in lines from a fresh breeze on, and well marked in a gale (Beaufort 7 and 8).
+static void find_streaks(Waves *waves, const SeaParams *params)
+{
+    const double share = 0.25; // of what whitecaps cover
+    double wind = (double)params->wind, marked = wind > 10.0 ? (wind - 10.0) / 8.0 : 0.0;
+    double cover = share * (marked < 1.0 ? marked : 1.0) * monahan_whitecaps(wind);
+    waves->streaks = fminf((float)cover * params->foam, 0.1f);
 }
 
 Waves *sea_waves(const SeaParams *params, uint64_t seed, const Run *run, Error *e)
@@ -100,6 +115,7 @@ Waves *sea_waves(const SeaParams *params, uint64_t seed, const Run *run, Error *
                         .low = low,
                         .high = high,
                         .breaker = breaker,
+                        .breaking = breaking_of(params),
                         .trails = i == 0,
                         .has_crest = i == 0,
                         .key = random_key(seed, (uint64_t)i),
@@ -118,6 +134,7 @@ Waves *sea_waves(const SeaParams *params, uint64_t seed, const Run *run, Error *
     waves->breakers = params->foam > 0.0f ? params->breakers : 0.0f;
     waves->shortest = (float)(TURN / shortest_shown(&waves->tile[WAVES_TILES - 1]));
     find_breaking(waves, params);
+    find_streaks(waves, params);
     find_hidden(waves, &spectrum, (double)params->wind);
     return waves;
 }

@@ -17,28 +17,30 @@ static float noise_rank(float value)
     return 1.0f / (1.0f + expf(-x * (1.5976f + 0.07056f * x * x)));
 }
 
-// How much farther the second nearest of random points, one in each unit square, is than the
-// nearest: 0 on the borders of their cells (Worley 1996). noise_cells has steps inside of cells.
-static float beyond_border(Vec2 p, uint32_t seed)
+// How far inside of a hole a place is not: the least distance to random points, one in each unit
+// square, over the reach of each, so that borders of holes are arcs, as those of bubbles are. 0 in
+// the middle of a hole, greatest where three strands meet; no farther than points of the squares
+// around are looked at.
+static float beyond_holes(Vec2 p, uint32_t seed)
 {
-    float column = floorf(p.x), row = floorf(p.y), nearest = INFINITY, second = INFINITY;
+    float column = floorf(p.x), row = floorf(p.y), least = 1.06f * 1.06f;
     for (int n = 0; n < 9; n++) {
         int across = n % 3 - 1, down = n / 3 - 1;
         float x = column + (float)across, y = row + (float)down;
         uint32_t square = (uint32_t)(int32_t)x * 0x8da6b343u + (uint32_t)(int32_t)y * 0xd8163841u;
         float dx = x + 0.06f + 0.88f * noise_unit(square, seed) - p.x;
         float dy = y + 0.06f + 0.88f * noise_unit(square, seed + 1) - p.y;
-        float squared = dx * dx + dy * dy;
-        second = fminf(second, fmaxf(nearest, squared));
-        nearest = fminf(nearest, squared);
+        float reach = 0.58f + 0.42f * noise_unit(square, seed + 2);
+        least = fminf(least, (dx * dx + dy * dy) / (reach * reach));
     }
-    return sqrtf(second) - sqrtf(nearest);
+    return least;
 }
 
-// The rank of what it tells: fitted to 400,000 places, within 0.01.
-static float border_rank(float beyond)
+// The rank of the square of that distance: fitted to 400,000 places, within 0.014.
+static float strand_rank(float squared)
 {
-    return 1.0f - expf(-beyond * (2.42f + beyond * (1.1f + 3.0f * beyond)));
+    float fourth = squared * squared;
+    return expf(-2.032f * squared - 1.7603f * fourth + 0.1162f * fourth * fourth);
 }
 
 // Foam at a place of this rank, where its mean is `share`: it lies on the lowest ranks. `least` is
@@ -73,11 +75,30 @@ static float patches(float share, Vec2 at, float width)
 
 // Sizes of holes, m; those from STILL on lie still.
 static const float HOLE[] = {2.6f, 0.95f, 0.34f, 0.12f};
+static const float GATHERS[] = {0.45f, 0.5f, 0.4f, 0.25f}; // what is left at each size does so much
 enum { STILL = 1 };
 
-float foam_share(float cover, FoamPlace place, float width)
+// Lumps of a roller: of sizes in m. Between them it is thinner.
+static float roller_share(float cover, Vec2 at, float width)
 {
-    float share = patches(clampf(cover, 0.0f, 1.0f), place.drift, width);
+    static const float size[] = {1.1f, 0.45f, 0.19f, 0.08f};
+    float share = cover;
+    for (uint32_t i = 0; i < sizeof size / sizeof size[0]; i++) {
+        float seen = pattern_detail(size[i], width);
+        if (seen <= 0.0f) {
+            break;
+        }
+        float rank =
+            noise_rank(noise_solid(vec3(at.x / size[i], 0.7f, at.y / size[i]), 871 + i, NULL));
+        share = lerpf(share, gathered(share, rank, 0.5f, 1.0f), 0.8f * seen);
+    }
+    return share;
+}
+
+// Old foam: a net about holes of some sizes.
+static float lace_share(float cover, FoamPlace place, float width)
+{
+    float share = patches(cover, place.drift, width);
     for (uint32_t i = 0; share > 0.0f && i < sizeof HOLE / sizeof HOLE[0]; i++) {
         float seen = pattern_detail(HOLE[i], width);
         if (seen <= 0.0f) {
@@ -85,13 +106,21 @@ float foam_share(float cover, FoamPlace place, float width)
         }
         Vec2 at = i < STILL ? place.drift : place.still;
         Vec2 p = {0.72f * at.x / HOLE[i], 1.3f * at.y / HOLE[i]};
-        Vec3 bend = {1.3f * p.x, 0.5f, 1.3f * p.y};
-        p.x += 0.38f * noise_solid(bend, 841 + i, NULL);
-        p.y += 0.38f * noise_solid(bend, 851 + i, NULL);
-        float rank = border_rank(beyond_border(p, 821 + 2 * i));
-        share = lerpf(share, gathered(share, rank, 0.24f, 0.8f), 0.9f * seen);
+        Vec3 bend = {0.9f * p.x, 0.5f, 0.9f * p.y};
+        p.x += 0.3f * noise_solid(bend, 841 + i, NULL);
+        p.y += 0.3f * noise_solid(bend, 851 + i, NULL);
+        float rank = strand_rank(beyond_holes(p, 821 + 3 * i));
+        share = lerpf(share, gathered(share, rank, GATHERS[i], 1.0f), 0.9f * seen);
     }
     return share;
+}
+
+float foam_share(FoamCover foam, FoamPlace place, float width)
+{
+    float cover = clampf(foam.cover, 0.0f, 1.0f);
+    float old = foam.fresh < 1.0f ? lace_share(cover, place, width) : 0.0f;
+    float roller = foam.fresh > 0.0f ? roller_share(cover, place.still, width) : 0.0f;
+    return lerpf(old, roller, clampf(foam.fresh, 0.0f, 1.0f));
 }
 
 // One eddy in each square of the spacing, within it, some of them turning the other way.
@@ -112,10 +141,12 @@ Vec2 foam_stirred(Vec2 at, float spacing, float turns, uint32_t seed)
     return (Vec2){at.x + spacing * (c * x - s * y), at.y + spacing * (s * x + c * y)};
 }
 
-static Vec2 lumps_slope(Vec2 at, float width)
+// Lumps of froth, and of lace, which is far flatter. Finer ones do not show: light wanders by
+// centimetres within foam.
+static Vec2 lumps_slope(float fresh, Vec2 at, float width)
 {
-    static const float size[] = {0.31f, 0.13f, 0.055f, 0.023f}; // m
-    const float steep = 0.18f;                                  // of each size
+    static const float size[] = {1.1f, 0.45f, 0.19f, 0.08f}; // m: as in roller_share
+    static const float froth[] = {0.30f, 0.26f, 0.20f, 0.12f}, lace[] = {0.0f, 0.0f, 0.08f, 0.08f};
     Vec2 slope = {0.0f, 0.0f};
     for (uint32_t i = 0; i < sizeof size / sizeof size[0]; i++) {
         float seen = pattern_detail(size[i], width);
@@ -123,21 +154,22 @@ static Vec2 lumps_slope(Vec2 at, float width)
             break;
         }
         Vec3 gradient;
-        (void)noise_solid(vec3(at.x / size[i], 0.3f, at.y / size[i]), 861 + i, &gradient);
-        slope.x += seen * steep * gradient.x;
-        slope.y += seen * steep * gradient.z;
+        (void)noise_solid(vec3(at.x / size[i], 0.7f, at.y / size[i]), 871 + i, &gradient);
+        float steep = seen * lerpf(lace[i], froth[i], fresh);
+        slope.x -= steep * gradient.x; // roller_share gathers on the lowest values
+        slope.y -= steep * gradient.z;
     }
     return slope;
 }
 
-Vec2 foam_slope(float cover, float share, Vec2 at, float width)
+Vec2 foam_slope(FoamCover foam, float share, FoamPlace at, float drawn, float width)
 {
-    const float thick = 0.02f, steepest = 0.6f; // m; slope
+    const float thick = 0.02f, steepest = 0.7f; // m; slope
     float step = fmaxf(width, 0.012f);
-    Vec2 along = {at.x + step, at.y}, aside = {at.x, at.y + step};
-    float x = foam_share(cover, (FoamPlace){along, along}, width) - share;
-    float y = foam_share(cover, (FoamPlace){aside, aside}, width) - share;
-    Vec2 lumps = lumps_slope(at, width);
+    FoamPlace along = {{at.drift.x + drawn * step, at.drift.y}, {at.still.x + step, at.still.y}};
+    FoamPlace aside = {{at.drift.x, at.drift.y + step}, {at.still.x, at.still.y + step}};
+    float x = foam_share(foam, along, width) - share, y = foam_share(foam, aside, width) - share;
+    Vec2 lumps = lumps_slope(foam.fresh, at.still, width);
     return (Vec2){clampf(thick * x / step + share * lumps.x, -steepest, steepest),
                   clampf(thick * y / step + share * lumps.y, -steepest, steepest)};
 }

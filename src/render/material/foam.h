@@ -14,15 +14,22 @@ typedef struct FoamPlace {
     Vec2 still; // of the lace
 } FoamPlace;
 
-// Share of a pixel of this width, m, that foam hides at a place of the water whose surroundings it
-// hides to the share `cover`, 0..1. Its mean over places is the cover, for any width; it grows with
-// the cover; a wider pixel shows less of the lace. Holes are longer along x.
-float foam_share(float cover, FoamPlace at, float width);
+// What foam is about a place.
+typedef struct FoamCover {
+    float cover; // 0..1: share of the water that it hides
+    float
+        fresh; // 0..1: how much of it is the thick froth of water that breaks now; the rest is lace
+} FoamCover;
 
-// Slopes along x and y of the top of foam that lies on the water as thick as it is dense, in lumps
-// of bubbles from decimetres to centimetres. share: foam_share there; at: both of FoamPlace. None
-// that a pixel of this width does not show.
-Vec2 foam_slope(float cover, float share, Vec2 at, float width);
+// Share of a pixel of this width, m, that foam hides at a place of the water. Its mean over places
+// is the cover, for any width; it grows with the cover; a wider pixel shows less of the lace. Holes
+// are longer along x.
+float foam_share(FoamCover foam, FoamPlace at, float width);
+
+// Slopes along x and y of `still` of the top of foam: it lies on the water as thick as it is dense,
+// froth in lumps from a metre down, lace nearly flat. share: foam_share there; drawn: the length
+// that a metre along x has in `drift`. None that a pixel of this width does not show.
+Vec2 foam_slope(FoamCover foam, float share, FoamPlace at, float drawn, float width);
 
 // Where the water at a place, m, was before eddies of this spacing, m, turned it: parts of circles
 // that do not overlap, each turned by up to `turns` radians about its middle, none at its rim.

@@ -173,7 +173,8 @@ void pattern_glacial(const Material *m, const SurfacePoint *point, PatternShade 
     slope = vec3_lerp(vec3_scale(slope, height), vec3_scale(stones.slope, 0.5f), dry);
     Vec2 at = {point->object_position.z, point->object_position.x};
     float crests = 0.35f * smoothstepf(0.5f, 0.8f, rough + 0.12f * waves.value + 0.08f * lines);
-    float foam = (1.0f - dry) * foam_share(crests, (FoamPlace){at, at}, point->footprint);
+    float foam =
+        (1.0f - dry) * foam_share((FoamCover){crests, 0.0f}, (FoamPlace){at, at}, point->footprint);
     shade->color = vec3_lerp(shade->color, vec3_splat(0.7f), foam);
     shade->foam = fmaxf(dry, foam);
     shade->normal = pattern_tilt(shade->normal, slope);

@@ -306,8 +306,9 @@ void pattern_water(const Material *m, const SurfacePoint *point, PatternShade *s
         float boils =
             lerpf(0.9f - 0.45f * heaves.value, 1.0f, smoothstepf(0.96f, 1.0f, point->foam));
         float cover = clampf(point->foam * boils, 0.0f, 1.0f);
+        FoamCover foam = {cover, smoothstepf(0.6f, 1.0f, point->foam)};
         shade->foam =
-            point->foam < 1.0f ? foam_share(cover, stirred_foam(point), point->footprint) : 1.0f;
+            point->foam < 1.0f ? foam_share(foam, stirred_foam(point), point->footprint) : 1.0f;
         shade->color = vec3_lerp(shade->color, m->color2, shade->foam);
     }
     shade->normal = pattern_tilt(shade->normal, slope);

@@ -18,8 +18,13 @@
 #include <math.h>
 #include <stddef.h>
 
-// Share of what foam scatters that leaves on its far side: rafts are centimetres thick.
-#define FOAM_THROUGH 0.3f
+// Share of what foam scatters that leaves on its far side: lace is millimetres thick, froth
+// decimetres.
+#define LACE_THROUGH 0.36f
+#define FROTH_THROUGH 0.16f
+// Length that a metre along the wind has in the coordinates of patches and large holes: what a
+// crest leaves is drawn out by those that follow.
+#define SEA_DRAWN 0.5f
 
 // Foam and what lies below it: bubbles that a breaker or a fall has taken down pale the water
 // around it, softly, in the colour `plume`. Sets the share of the pixel that scatters light at
@@ -39,20 +44,31 @@ static Vec3 foam_normal(Vec3 normal, Vec2 way, Vec2 slope)
     return vec3_normalize(vec3_madd(vec3_madd(normal, -slope.x, along), -slope.y, across));
 }
 
+// The fewer layers of bubbles foam has, the less it sends back.
+static Vec3 foam_of(Vec3 color, float share, float fresh)
+{
+    const float thinnest = 0.5f; // of the reflectance of thick froth
+    return vec3_scale(color, lerpf(thinnest, 1.0f, fmaxf(share, fresh)));
+}
+
 static void whiten_sea(Bsdf *b, const WavePoint *wave, const Waves *waves,
                        const SurfacePoint *point)
 {
     const Vec3 plume = {0.10f, 0.27f, 0.26f}; // green
-    float cover = waves_foam(waves, wave);
-    if (cover > 0.0f) {
+    WaveFoam foam = waves_foam(waves, wave);
+    if (foam.bubbles > 0.0f) {
         Vec2 at = {point->uv.x * waves->way.x + point->uv.y * waves->way.y,
                    point->uv.y * waves->way.x - point->uv.x * waves->way.y};
-        float share = foam_share(cover, (FoamPlace){at, at}, point->footprint);
-        whiten(b, cover, share, plume);
+        FoamCover cover = {foam.cover, foam.fresh};
+        FoamPlace place = {{SEA_DRAWN * at.x, at.y}, at};
+        float share = foam_share(cover, place, point->footprint);
+        b->foam_color = foam_of(b->foam_color, share, foam.fresh);
+        whiten(b, foam.bubbles, share, plume);
         Vec3 up = point->backface ? vec3_neg(b->normal) : b->normal;
-        up = foam_normal(up, waves->way, foam_slope(cover, share, at, point->footprint));
+        Vec2 slope = foam_slope(cover, share, place, SEA_DRAWN, point->footprint);
+        up = foam_normal(up, waves->way, slope);
         b->foam_normal = point->backface ? vec3_neg(up) : up;
-        b->foam_through = FOAM_THROUGH;
+        b->foam_through = lerpf(LACE_THROUGH, FROTH_THROUGH, foam.fresh);
     }
 }
 
