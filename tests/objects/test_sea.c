@@ -234,8 +234,8 @@ static void foam_covers_what_whitecaps_do(void **state)
     }
 }
 
-// Foam in lines along the wind has the mean that is asked for, and is alike over ten times as far
-// along as across it; a wide pixel shows the mean.
+// Foam in lines along the wind has the mean that is asked for; places 20 m apart along the wind are
+// more alike than places 2 m apart across it; a wide pixel shows the mean.
 static void lines_of_foam_follow_the_wind(void **state)
 {
     (void)state;
