@@ -91,26 +91,32 @@ static void take_nearer(Nearest *nearest, const TreePoint *point, Vec3 offset)
     }
 }
 
-static void search(const TreePoint *point, int64_t count, Nearest *nearest)
+// outside: along each axis, how far p lies outside of what the points lie in; its square is a bound
+// of their distances (Arya and Mount 1993, "Algorithms for fast vector quantization").
+static void search(const TreePoint *point, int64_t count, const float outside[3], Nearest *nearest)
 {
     if (count == 0) {
         return;
     }
+    const float slack = 0.99999f; // for what rounding adds to the bound
     int64_t middle = count / 2;
     const TreePoint *at = &point[middle], *upper = at + 1;
     Vec3 v = vec3_sub(nearest->p, at->position);
     take_nearer(nearest, at, v);
     float beyond = vec3_axis(v, at->axis);
     bool after = beyond > 0.0f;
-    search(after ? upper : point, after ? count - middle - 1 : middle, nearest);
-    if (beyond * beyond <= nearest->distance2) { // equally near points may lie on the other side
-        search(after ? point : upper, after ? middle : count - middle - 1, nearest);
+    search(after ? upper : point, after ? count - middle - 1 : middle, outside, nearest);
+    float across[3] = {outside[0], outside[1], outside[2]};
+    across[at->axis] = beyond;
+    float bound = across[0] * across[0] + across[1] * across[1] + across[2] * across[2];
+    if (slack * bound <= nearest->distance2) { // equally near points may lie on the other side
+        search(after ? point : upper, after ? middle : count - middle - 1, across, nearest);
     }
 }
 
 const TreePoint *point_tree_nearest(const PointTree *tree, Vec3 p, int64_t skip)
 {
     Nearest nearest = {.p = p, .skip = skip, .distance2 = INFINITY};
-    search(tree->point, tree->count, &nearest);
+    search(tree->point, tree->count, (const float[3]){0.0f, 0.0f, 0.0f}, &nearest);
     return nearest.point;
 }

@@ -78,10 +78,10 @@ static const Case scenes[] = {
      "position, rotation, scale, extinction"},
     {TREE "clouds: [{kind: stratus, softness: 1}]\n",
      ":2:26: key 'softness' does not apply to clouds.0 of kind 'stratus'; known: kind, base, "
-     "thickness, cover, size, extinction, wind, seed"},
+     "thickness, cover, size, extinction, wind, seed, resolution"},
     {TREE "clouds: [{kind: cumulus, shelf: 1}]\n",
      ":2:26: key 'shelf' does not apply to clouds.0 of kind 'cumulus'; known: kind, base, "
-     "thickness, cover, size, extinction, softness, wind, seed"},
+     "thickness, cover, size, extinction, softness, wind, seed, resolution"},
     {TREE "clouds: [{kind: fog, over: b}]\n",
      ":2:28: clouds.0.over: there is no object 'b'; did you mean 'a'?"},
     {TREE "clouds: [{kind: fog, over: a}]\n",

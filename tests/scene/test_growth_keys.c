@@ -184,7 +184,7 @@ static void nuclei_that_are_named_bend_growth(void **state)
             snprintf(object, sizeof object,
                      "tree: {height: 8, crown: {lobes: 0, growth: {levels: [{attractors: 80}]}, "
                      "fields: [{kind: %s, turn: 90%s}]}}",
-                     k == 0 ? "nuclei" : "grid", nuclei[i]);
+                     k == 0 ? "nuclei" : "grid, resolution: 24", nuclei[i]);
             hash[i] = hash_of(*state, object);
             for (int j = 0; j < i; j++) {
                 assert_true(hash[i] != hash[j]);
