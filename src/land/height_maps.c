@@ -1,5 +1,6 @@
 #include "land/height_maps.h"
 
+#include "base/distance_transform.h"
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "land/height_drainage.h"
@@ -135,59 +136,6 @@ static bool fill_wetness(const HeightField *field, const Drainage *drainage, Hei
     return true;
 }
 
-// The squared distance along a line to the nearest sample, plus that sample's own: the lower
-// envelope of parabolas (Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions",
-// Theory of Computing 8, 2012). value: `count` of them, `stride` apart; apex, border and
-// line: scratch of `count`.
-static void spread_along(double *value, int count, int64_t stride, double cell, int *apex,
-                         double *border, double *line)
-{
-    int last = -1;
-    for (int i = 0; i < count; i++) {
-        line[i] = value[i * stride];
-        double own = line[i] + cell * cell * i * i, meet = -INFINITY;
-        while (isfinite(line[i]) && last >= 0) {
-            int k = apex[last];
-            meet = (own - line[k] - cell * cell * k * k) / (2.0 * cell * cell * (i - k));
-            if (meet > border[last]) {
-                break;
-            }
-            last--;
-            meet = -INFINITY;
-        }
-        if (isfinite(line[i])) {
-            apex[++last] = i;
-            border[last] = meet;
-        }
-    }
-    for (int i = 0, k = 0; i < count && last >= 0; i++) {
-        while (k < last && border[k + 1] < i) {
-            k++;
-        }
-        double off = cell * (i - apex[k]);
-        value[i * stride] = off * off + line[apex[k]];
-    }
-}
-
-static bool spread(const HeightField *field, double *squared, Error *e)
-{
-    int longest = field->columns > field->rows ? field->columns : field->rows;
-    int *apex = memory_alloc(longest, sizeof *apex, e);
-    double *border = memory_alloc((int64_t)2 * longest, sizeof *border, e);
-    bool done = apex && border;
-    for (int row = 0; done && row < field->rows; row++) {
-        spread_along(squared + (int64_t)row * field->columns, field->columns, 1,
-                     (double)field->cell.x, apex, border, border + longest);
-    }
-    for (int column = 0; done && column < field->columns; column++) {
-        spread_along(squared + column, field->rows, field->columns, (double)field->cell.y, apex,
-                     border, border + longest);
-    }
-    free(border);
-    free(apex);
-    return done;
-}
-
 // Where a field records its water, that is the river: its edge, not the middle, is at distance 0.
 static bool is_river(const HeightField *field, const uint8_t *order, int64_t i)
 {
@@ -205,7 +153,8 @@ static bool fill_river_distance(const HeightField *field, const Drainage *draina
     for (int64_t i = 0; done && i < count; i++) {
         squared[i] = is_river(field, order, i) ? 0.0 : INFINITY;
     }
-    done = done && spread(field, squared, e);
+    done = done && distance_transform(squared, field->columns, field->rows, (double)field->cell.x,
+                                      (double)field->cell.y, e);
     for (int64_t i = 0; done && i < count; i++) {
         out->height[i] = isfinite(field->height[i]) ? (float)sqrt(squared[i]) : NAN;
     }

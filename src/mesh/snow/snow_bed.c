@@ -1,5 +1,6 @@
 #include "mesh/snow/snow_bed.h"
 
+#include "base/distance_transform.h"
 #include "base/memory.h"
 #include "base/noise.h"
 #include "base/random.h"
@@ -21,7 +22,6 @@ enum { BORDER = 4, MOST_ACROSS = 400, ROUNDINGS = 3 };
 #define GAP_LENGTH 0.35f  // m, about, of a gap
 #define LUMP_LENGTH 3.2f  // of a lump, in depths
 #define LUMP_HEIGHT 0.55f // how far lumps differ from the mean, by a noise of about -0.7 .. 0.7
-#define NOWHERE 1e12f     // square of a distance, in cells: there is nothing
 
 void snow_bed_clear(SnowBed *bed)
 {
@@ -76,76 +76,25 @@ static bool lay_out(SnowBed *bed, const SnowBearer *bearer, int64_t count, const
 
 // ---- distances ----
 
-// Room for one row or column of either.
-typedef struct Line {
-    float *value, *result, *from;
-    int *apex;
-} Line;
-
-// Squared distances along a line: the lower envelope of parabolas (Felzenszwalb and Huttenlocher
-// 2012, "Distance transforms of sampled functions").
-static void envelope(const Line *line, int count)
+// To every point the squared distance, in cells, to the nearest one where inside is `wanted`.
+static bool distances(const SnowBed *bed, const bool *inside, bool wanted, double *squared,
+                      Error *e)
 {
-    const float *f = line->value;
-    int last = 0;
-    line->apex[0] = 0;
-    line->from[0] = -NOWHERE;
-    for (int i = 1; i < count; i++) {
-        float cross;
-        for (;; last--) {
-            int a = line->apex[last];
-            cross = (f[i] - f[a] + (float)(i * i) - (float)(a * a)) / (float)(2 * (i - a));
-            if (last == 0 || cross > line->from[last]) {
-                break;
-            }
-        }
-        bool first = cross <= line->from[last];
-        last = first ? last : last + 1;
-        line->apex[last] = i;
-        line->from[last] = first ? -NOWHERE : cross;
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        squared[i] = inside[i] == wanted ? 0.0 : INFINITY;
     }
-    for (int i = 0, k = 0; i < count; i++) {
-        while (k < last && line->from[k + 1] < (float)i) {
-            k++;
-        }
-        int off = i - line->apex[k];
-        line->result[i] = (float)(off * off) + f[line->apex[k]];
-    }
-}
-
-// To every point the distance, in cells, to the nearest one where inside is `wanted`.
-static void distances(const SnowBed *bed, const bool *inside, bool wanted, const Line *line,
-                      float *distance)
-{
-    int across = bed->across, along = bed->along;
-    for (int x = 0; x < across; x++) {
-        for (int z = 0; z < along; z++) {
-            line->value[z] = inside[z * across + x] == wanted ? 0.0f : NOWHERE;
-        }
-        envelope(line, along);
-        for (int z = 0; z < along; z++) {
-            distance[z * across + x] = fminf(line->result[z], NOWHERE);
-        }
-    }
-    for (int z = 0; z < along; z++) {
-        for (int x = 0; x < across; x++) {
-            line->value[x] = distance[z * across + x];
-        }
-        envelope(line, across);
-        for (int x = 0; x < across; x++) {
-            distance[z * across + x] = sqrtf(line->result[x]);
-        }
-    }
+    return distance_transform(squared, bed->across, bed->along, 1.0, 1.0, e);
 }
 
 // Adds (or, if not `grows`, removes) what is nearer than `reach` cells to it.
-static void dilate(const SnowBed *bed, bool *inside, bool grows, float reach, const Line *line,
-                   float *distance)
+static bool dilate(const SnowBed *bed, bool *inside, bool grows, float reach, double *squared,
+                   Error *e)
 {
-    distances(bed, inside, grows, line, distance);
-    for (int64_t i = 0; i < point_count(bed); i++) {
-        inside[i] = distance[i] < reach ? grows : inside[i];
+    bool done = distances(bed, inside, grows, squared, e);
+    for (int64_t i = 0; done && i < point_count(bed); i++) {
+        inside[i] = sqrt(squared[i]) < (double)reach ? grows : inside[i];
     }
+    return done;
 }
 
 // ---- fields ----
@@ -334,51 +283,57 @@ static void drop_specks(const SnowBed *bed, bool *inside, int32_t *stack, bool *
     }
 }
 
-// Signed distances to the border of what is inside, rounded.
-static void set_outline(SnowBed *bed, const bool *inside, const Line *line, float overhang,
-                        float *distance)
-{
-    distances(bed, inside, false, line, distance);
-    distances(bed, inside, true, line, bed->outline);
-    for (int64_t i = 0; i < point_count(bed); i++) {
-        float cells = inside[i] ? distance[i] - 0.5f : 0.5f - bed->outline[i];
-        bed->outline[i] = bed->cell * clampf(cells, -30.0f, 30.0f) + overhang;
-    }
-    for (int turn = 0; turn < ROUNDINGS; turn++) {
-        box_blur(bed, bed->outline, 1, line->value);
-    }
-}
-
 // Room for the steps of a bed.
 typedef struct Room {
-    Line line;
+    float *line;         // a row or column
     bool *inside, *seen; // per point
-    float *field, *top;
+    double *squared;
+    float *top;
     int32_t *stack;
 } Room;
 
-static void shape(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
-                  const SnowReach *reach, uint64_t seed, const Room *room)
+// Signed distances to the border of what is inside, rounded.
+static bool set_outline(SnowBed *bed, const bool *inside, float overhang, const Room *room,
+                        Error *e)
+{
+    for (int side = 0; side < 2; side++) { // of the points inside, then of those outside
+        if (!distances(bed, inside, side == 1, room->squared, e)) {
+            return false;
+        }
+        for (int64_t i = 0; i < point_count(bed); i++) {
+            if (inside[i] == (side == 0)) {
+                float cells = fminf((float)sqrt(room->squared[i]) - 0.5f, 30.0f);
+                bed->outline[i] = bed->cell * (inside[i] ? cells : -cells) + overhang;
+            }
+        }
+    }
+    for (int turn = 0; turn < ROUNDINGS; turn++) {
+        box_blur(bed, bed->outline, 1, room->line);
+    }
+    return true;
+}
+
+static bool shape(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
+                  const SnowReach *reach, uint64_t seed, const Room *room, Error *e)
 {
     float span = 0.5f * params->bridging / bed->cell + 0.5f;
-    gather(bed, bearer, count, 1 + (int)span, room->inside, room->top, room->line.value);
-    dilate(bed, room->inside, true, span, &room->line, room->field); // closing: gaps become snow
-    dilate(bed, room->inside, false, span, &room->line, room->field);
+    gather(bed, bearer, count, 1 + (int)span, room->inside, room->top, room->line);
+    if (!dilate(bed, room->inside, true, span, room->squared, e) || // closing: gaps become snow
+        !dilate(bed, room->inside, false, span, room->squared, e)) {
+        return false;
+    }
     set_surface(bed, params, reach, seed, room->inside, room->top);
     drop_specks(bed, room->inside, room->stack, room->seen);
-    set_outline(bed, room->inside, &room->line, OVERHANG * params->depth, room->field);
-    box_blur(bed, bed->share, 1, room->line.value);
+    box_blur(bed, bed->share, 1, room->line);
+    return set_outline(bed, room->inside, OVERHANG * params->depth, room, e);
 }
 
 static void room_clear(Room *room)
 {
-    free(room->line.value);
-    free(room->line.result);
-    free(room->line.from);
-    free(room->line.apex);
+    free(room->line);
     free(room->inside);
     free(room->seen);
-    free(room->field);
+    free(room->squared);
     free(room->top);
     free(room->stack);
 }
@@ -387,28 +342,22 @@ static bool room_init(Room *room, const SnowBed *bed, Error *e)
 {
     int64_t points = point_count(bed);
     int longest = bed->across > bed->along ? bed->across : bed->along;
-    *room = (Room){.line = {.value = memory_alloc(longest, sizeof(float), e),
-                            .result = memory_alloc(longest, sizeof(float), e),
-                            .from = memory_alloc(longest, sizeof(float), e),
-                            .apex = memory_alloc(longest, sizeof(int), e)},
+    *room = (Room){.line = memory_alloc(longest, sizeof(float), e),
                    .inside = memory_alloc_zero(points, sizeof(bool), e),
                    .seen = memory_alloc_zero(points, sizeof(bool), e),
-                   .field = memory_alloc(points, sizeof(float), e),
+                   .squared = memory_alloc(points, sizeof(double), e),
                    .top = memory_alloc(points, sizeof(float), e),
                    .stack = memory_alloc(points, sizeof(int32_t), e)};
-    const Line *line = &room->line;
-    return line->value && line->result && line->from && line->apex && room->inside && room->seen &&
-           room->field && room->top && room->stack;
+    return room->line && room->inside && room->seen && room->squared && room->top && room->stack;
 }
 
 bool snow_bed_init(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
                    const SnowReach *reach, uint64_t seed, Error *e)
 {
     Room room = {0};
-    bool done = lay_out(bed, bearer, count, params, e) && room_init(&room, bed, e);
-    if (done) {
-        shape(bed, bearer, count, params, reach, seed, &room);
-    } else {
+    bool done = lay_out(bed, bearer, count, params, e) && room_init(&room, bed, e) &&
+                shape(bed, bearer, count, params, reach, seed, &room, e);
+    if (!done) {
         snow_bed_clear(bed);
     }
     room_clear(&room);
