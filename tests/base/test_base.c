@@ -1,3 +1,4 @@
+#include "base/distance_transform.h"
 #include "base/error.h"
 #include "base/exact_math.h"
 #include "base/memory.h"
@@ -174,6 +175,32 @@ static void errors_name_their_place(void **state)
     assert_false(error_set(NULL, ERROR_INPUT, "nobody listens"));
 }
 
+// Against a search through all samples, with cells that are not square.
+static void test_distance_transform(void **state)
+{
+    (void)state;
+    enum { COLUMNS = 23, ROWS = 17 };
+    double squared[COLUMNS * ROWS];
+    bool wanted[COLUMNS * ROWS];
+    for (int sparse = 0; sparse < 3; sparse++) { // none at all last
+        for (int i = 0; i < COLUMNS * ROWS; i++) {
+            const float share[] = {0.3f, 0.01f, 0.0f};
+            wanted[i] = random_unit(random_key(17, (uint64_t)i)) < share[sparse];
+            squared[i] = wanted[i] ? 0.0 : INFINITY;
+        }
+        assert_true(distance_transform(squared, COLUMNS, ROWS, 0.5, 1.25, NULL));
+        for (int i = 0; i < COLUMNS * ROWS; i++) {
+            double least = INFINITY;
+            for (int j = 0; j < COLUMNS * ROWS; j++) {
+                double x = 0.5 * (i % COLUMNS - j % COLUMNS),
+                       y = 1.25 * (i / COLUMNS - j / COLUMNS);
+                least = wanted[j] && x * x + y * y < least ? x * x + y * y : least;
+            }
+            assert_true(squared[i] == least || fabs(squared[i] - least) < 1e-9);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -186,6 +213,7 @@ int main(void)
         cmocka_unit_test(noise_is_smooth_and_zero_on_the_lattice),
         cmocka_unit_test(wide_arrays_lie_on_large_pages),
         cmocka_unit_test(absurd_allocations_are_errors),
+        cmocka_unit_test(test_distance_transform),
         cmocka_unit_test(errors_name_their_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

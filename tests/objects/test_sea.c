@@ -262,7 +262,7 @@ static void lines_of_foam_follow_the_wind(void **state)
     double across = (product[2] / PLACES - mean * mean) / variance;
     printf("    mean %.4f; correlation %.2f over 20 m along, %.2f over 2 m across\n", mean, along,
            across);
-    assert_true(fabs(mean - 0.01) < 0.001 && along > across);
+    assert_true(fabs(mean - 0.01) < 0.001 && along > across + 0.1);
 }
 
 // The height of the longest waves at a place.
