@@ -343,7 +343,7 @@ static void layers_above_keep_snow_off(void **state)
     SnowFall fall;
     Aabb bounds = {vec3(0, 0, 0), vec3(8, 8, 8)};
     assert_true(snow_fall_init(&fall, bounds, NULL));
-    float cell = fall.cell, area = cell * cell;
+    float cell = fall.cells.size, area = cell * cell;
     Vec3 low = vec3(2.1f, 1.0f, 3.1f), beside = vec3(5.0f, 1.0f, 3.1f);
     for (int i = 0; i < 3; i++) {
         snow_fall_add(&fall, vec3(low.x, 3.0f + (float)i, low.z), area);

@@ -17,20 +17,10 @@ void boughs_free(Boughs *boughs)
     free(boughs->node);
 }
 
-static int clamped(float offset, float cell, int count)
+static int64_t cell_of(const PlantCells *cells, Vec3 p)
 {
-    int index = (int)fmaxf(0.0f, offset / cell);
-    return index < count ? index : count - 1;
-}
-
-static int64_t cell_of(const Boughs *boughs, Vec3 p)
-{
-    Vec3 place = vec3_sub(p, boughs->bounds.low);
-    int64_t x = clamped(place.x, boughs->cell, boughs->count[0]);
-    int64_t y = clamped(place.y, boughs->cell, boughs->count[1]);
-    return (clamped(place.z, boughs->cell, boughs->count[2]) * (int64_t)boughs->count[1] + y) *
-               boughs->count[0] +
-           x;
+    int64_t x = plant_cells_along(cells, p, 0), y = plant_cells_along(cells, p, 1);
+    return (plant_cells_along(cells, p, 2) * (int64_t)cells->count[1] + y) * cells->count[0] + x;
 }
 
 // A chain of the first order begins a bough; its first node is the fork on the main axis.
@@ -58,53 +48,49 @@ static bool name_boughs(Boughs *boughs, Error *e)
 static bool sort_nodes(Boughs *boughs, Error *e)
 {
     const OutTree *tree = boughs->tree;
-    int64_t cells = (int64_t)boughs->count[0] * boughs->count[1] * boughs->count[2];
+    int64_t cells = plant_cells_count(&boughs->cells);
     boughs->first = memory_alloc_zero(cells + 2, sizeof *boughs->first, e);
     boughs->node = memory_alloc(tree->count, sizeof *boughs->node, e);
     if (!boughs->first || !boughs->node) {
         return false;
     }
     for (int64_t i = 0; i < tree->count; i++) {
-        boughs->first[cell_of(boughs, tree->position[i]) + 2]++;
+        boughs->first[cell_of(&boughs->cells, tree->position[i]) + 2]++;
     }
     for (int64_t c = 0; c < cells; c++) {
         boughs->first[c + 2] += boughs->first[c + 1];
     }
     for (int64_t i = 0; i < tree->count; i++) {
-        boughs->node[boughs->first[cell_of(boughs, tree->position[i]) + 1]++] = (int32_t)i;
+        boughs->node[boughs->first[cell_of(&boughs->cells, tree->position[i]) + 1]++] = (int32_t)i;
     }
     return true;
 }
 
 bool boughs_init(Boughs *boughs, const OutTree *tree, Error *e)
 {
-    *boughs = (Boughs){.tree = tree, .bounds = out_tree_bounds(tree)};
-    if (aabb_is_empty(boughs->bounds)) {
-        boughs->bounds = (Aabb){{0, 0, 0}, {0, 0, 0}};
+    Aabb bounds = out_tree_bounds(tree);
+    if (aabb_is_empty(bounds)) {
+        bounds = (Aabb){{0, 0, 0}, {0, 0, 0}};
     }
-    Vec3 size = vec3_sub(boughs->bounds.high, boughs->bounds.low);
-    boughs->cell = fmaxf(CELL_LEAST, vec3_largest(size) / MOST_CELLS_ACROSS);
-    boughs->count[0] = 1 + (int)(size.x / boughs->cell);
-    boughs->count[1] = 1 + (int)(size.y / boughs->cell);
-    boughs->count[2] = 1 + (int)(size.z / boughs->cell);
+    *boughs = (Boughs){.tree = tree, .cells = plant_cells(bounds, CELL_LEAST, MOST_CELLS_ACROSS)};
     boughs->bough = memory_alloc(tree->count, sizeof *boughs->bough, e);
     return boughs->bough && name_boughs(boughs, e) && sort_nodes(boughs, e);
 }
 
 int32_t boughs_nearest(const Boughs *boughs, Vec3 p)
 {
-    Vec3 place = vec3_sub(p, boughs->bounds.low);
-    const float offset[3] = {place.x, place.y, place.z};
+    const PlantCells *cells = &boughs->cells;
+    Vec3 aside = vec3(cells->size, cells->size, cells->size);
     int low[3], high[3];
     for (int k = 0; k < 3; k++) {
-        low[k] = clamped(offset[k] - boughs->cell, boughs->cell, boughs->count[k]);
-        high[k] = clamped(offset[k] + boughs->cell, boughs->cell, boughs->count[k]);
+        low[k] = plant_cells_along(cells, vec3_sub(p, aside), k);
+        high[k] = plant_cells_along(cells, vec3_add(p, aside), k);
     }
     float least = 3e38f;
     int32_t nearest = -1;
     for (int z = low[2]; z <= high[2]; z++) {
         for (int y = low[1]; y <= high[1]; y++) {
-            int64_t row = ((int64_t)z * boughs->count[1] + y) * boughs->count[0];
+            int64_t row = ((int64_t)z * cells->count[1] + y) * cells->count[0];
             for (int64_t i = boughs->first[row + low[0]]; i < boughs->first[row + high[0] + 1];
                  i++) {
                 int32_t node = boughs->node[i];

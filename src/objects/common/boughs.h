@@ -2,16 +2,15 @@
 #ifndef RAMIFY_OBJECTS_COMMON_BOUGHS_H
 #define RAMIFY_OBJECTS_COMMON_BOUGHS_H
 
+#include "objects/common/plant_cells.h"
 #include "outtree/out_tree.h"
 
 typedef struct Boughs {
     const OutTree *tree;
-    int32_t *bough; // per node: the first node of its bough; the root's index on the main axis
-    Aabb bounds;
-    float cell;     // m, of a grid of the nodes
-    int count[3];   // cells along x, y, z
-    int64_t *first; // per cell, and one more: into node
-    int32_t *node;  // by cells
+    int32_t *bough;   // per node: the first node of its bough; the root's index on the main axis
+    PlantCells cells; // of the nodes
+    int64_t *first;   // per cell, and one more: into node
+    int32_t *node;    // by cells
 } Boughs;
 
 // Keeps the tree's address. Clear with boughs_free, also on failure.

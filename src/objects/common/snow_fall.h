@@ -4,15 +4,14 @@
 
 #include "base/error.h"
 #include "base/vec.h"
+#include "objects/common/plant_cells.h"
 
 #include <stdint.h>
 
 // A grid of what catches snow within the bounds. Initialize with snow_fall_init, add all that
 // catches, then call snow_fall_finish once.
 typedef struct SnowFall {
-    Aabb bounds;
-    float cell;    // m
-    int count[3];  // cells along x, y, z
+    PlantCells cells;
     float *caught; // m2 across the fall in each cell; after snow_fall_finish: above the cell
 } SnowFall;
 
