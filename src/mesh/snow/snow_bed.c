@@ -99,30 +99,32 @@ static bool dilate(const SnowBed *bed, bool *inside, bool grows, float reach, do
 
 // ---- fields ----
 
-// Each point becomes the mean of those up to `reach` points beside it, along x and then z.
-static void box_blur(const SnowBed *bed, float *field, int reach, float *line)
+// What becomes of a point, by the `count` values, `step` apart, that lie about it; `all` would if
+// the grid had no border.
+typedef float Window(const float *first, int count, int64_t step, int all);
+
+static float mean_of(const float *first, int count, int64_t step, int all)
 {
-    for (int turn = 0; turn < 2; turn++) {
-        int count = turn == 0 ? bed->across : bed->along, step = turn == 0 ? 1 : bed->across;
-        int lines = turn == 0 ? bed->along : bed->across, next = turn == 0 ? bed->across : 1;
-        for (int k = 0; k < lines; k++) {
-            float *first = field + (int64_t)k * next;
-            for (int i = 0; i < count; i++) {
-                float sum = 0.0f;
-                for (int d = -reach; d <= reach; d++) {
-                    sum += i + d >= 0 && i + d < count ? first[(int64_t)(i + d) * step] : 0.0f;
-                }
-                line[i] = sum / (float)(2 * reach + 1);
-            }
-            for (int i = 0; i < count; i++) {
-                first[(int64_t)i * step] = line[i];
-            }
-        }
+    float sum = 0.0f;
+    for (int i = 0; i < count; i++) {
+        sum += first[i * step];
     }
+    return sum / (float)all; // 0 beyond the border
 }
 
-// Each point becomes the greatest of those up to `reach` points beside it, along x and then z.
-static void spread_greatest(const SnowBed *bed, float *field, int reach, float *line)
+static float greatest_of(const float *first, int count, int64_t step, int all)
+{
+    float most = -INFINITY;
+    (void)all;
+    for (int i = 0; i < count; i++) {
+        most = fmaxf(most, first[i * step]);
+    }
+    return most;
+}
+
+// Filters by those up to `reach` points beside each, along x and then z. line: scratch of the
+// longest row or column.
+static void filter(const SnowBed *bed, float *field, Window *window, int reach, float *line)
 {
     for (int turn = 0; turn < 2; turn++) {
         int count = turn == 0 ? bed->across : bed->along, step = turn == 0 ? 1 : bed->across;
@@ -130,12 +132,9 @@ static void spread_greatest(const SnowBed *bed, float *field, int reach, float *
         for (int k = 0; k < lines; k++) {
             float *first = field + (int64_t)k * next;
             for (int i = 0; i < count; i++) {
-                line[i] = -INFINITY;
-                for (int d = -reach; d <= reach; d++) {
-                    if (i + d >= 0 && i + d < count) {
-                        line[i] = fmaxf(line[i], first[(int64_t)(i + d) * step]);
-                    }
-                }
+                int low = i > reach ? i - reach : 0,
+                    high = i + reach < count ? i + reach : count - 1;
+                line[i] = window(first + (int64_t)low * step, high - low + 1, step, 2 * reach + 1);
             }
             for (int i = 0; i < count; i++) {
                 first[(int64_t)i * step] = line[i];
@@ -162,7 +161,7 @@ static void gather(SnowBed *bed, const SnowBearer *bearer, int64_t count, int re
         inside[i] = area[i] >= BEARS * bed->cell * bed->cell;
         top[i] = inside[i] ? bed->highest[i] : NAN;
     }
-    spread_greatest(bed, bed->highest, reach, line);
+    filter(bed, bed->highest, greatest_of, reach, line);
     for (int64_t i = 0; i < point_count(bed); i++) {
         if (inside[i] && top[i] < bed->highest[i] - SNOW_STEP) {
             inside[i] = false;
@@ -308,7 +307,7 @@ static bool set_outline(SnowBed *bed, const bool *inside, float overhang, const 
         }
     }
     for (int turn = 0; turn < ROUNDINGS; turn++) {
-        box_blur(bed, bed->outline, 1, room->line);
+        filter(bed, bed->outline, mean_of, 1, room->line);
     }
     return true;
 }
@@ -324,7 +323,7 @@ static bool shape(SnowBed *bed, const SnowBearer *bearer, int64_t count, const S
     }
     set_surface(bed, params, reach, seed, room->inside, room->top);
     drop_specks(bed, room->inside, room->stack, room->seen);
-    box_blur(bed, bed->share, 1, room->line);
+    filter(bed, bed->share, mean_of, 1, room->line);
     return set_outline(bed, room->inside, OVERHANG * params->depth, room, e);
 }
 

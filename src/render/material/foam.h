@@ -17,8 +17,7 @@ typedef struct FoamPlace {
 // What foam is about a place.
 typedef struct FoamCover {
     float cover; // 0..1: share of the water that it hides
-    float
-        fresh; // 0..1: how much of it is the thick froth of water that breaks now; the rest is lace
+    float fresh; // 0..1: how much of it is thick froth of water that breaks now; the rest is lace
 } FoamCover;
 
 // Share of a pixel of this width, m, that foam hides at a place of the water. Its mean over places
