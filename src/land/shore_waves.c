@@ -193,48 +193,76 @@ static int directions(const ShoreParams *p, Sweep *sweeps)
 
 // ---- beyond where they are known
 
+// queue: cells beside those that are known, which are known a round later; room for all cells.
 typedef struct Filling {
     float *channel[CHANNELS];
     int channels, side;
-    uint8_t *known, *next;
+    uint8_t *known, *queued; // or known
+    int32_t *queue;
+    int64_t count; // of cells in the queue
 } Filling;
 
-// Gives a cell the mean of its neighbours that are known.
-static void fill_cell(const Filling *f, int column, int row)
+// A cell's neighbours; itself beyond the border.
+static void cells_beside(const Filling *f, int64_t i, int64_t near[4])
 {
-    int64_t i = (int64_t)row * f->side + column, near[4];
-    int count = 0;
+    int column = (int)(i % f->side), row = (int)(i / f->side);
     near[0] = column > 0 ? i - 1 : i;
     near[1] = column < f->side - 1 ? i + 1 : i;
     near[2] = row > 0 ? i - f->side : i;
     near[3] = row < f->side - 1 ? i + f->side : i;
+}
+
+// Gives a cell the mean of its neighbours that are known.
+static void fill_cell(const Filling *f, int64_t i)
+{
+    int64_t near[4];
+    int count = 0;
     float sum[CHANNELS] = {0};
+    cells_beside(f, i, near);
     for (int k = 0; k < 4; k++) {
         for (int c = 0; f->known[near[k]] && c < f->channels; c++) {
             sum[c] += f->channel[c][near[k]];
         }
         count += f->known[near[k]];
     }
-    for (int c = 0; count > 0 && c < f->channels; c++) {
+    for (int c = 0; c < f->channels; c++) {
         f->channel[c][i] = sum[c] / (float)count;
     }
-    f->next[i] = count > 0;
+}
+
+static void queue_beside(Filling *f, int64_t i)
+{
+    int64_t near[4];
+    cells_beside(f, i, near);
+    for (int k = 0; k < 4; k++) {
+        if (!f->queued[near[k]]) {
+            f->queued[near[k]] = 1;
+            f->queue[f->count++] = (int32_t)near[k];
+        }
+    }
 }
 
 // So many cells around those that are known.
-static void fill(const Filling *f, int rounds)
+static void fill(Filling *f, int rounds)
 {
-    size_t bytes = (size_t)f->side * (size_t)f->side;
-    for (int k = 0; k < rounds; k++) {
-        memcpy(f->next, f->known, bytes);
-        for (int row = 0; row < f->side; row++) {
-            for (int column = 0; column < f->side; column++) {
-                if (!f->known[(int64_t)row * f->side + column]) {
-                    fill_cell(f, column, row);
-                }
-            }
+    int64_t cells = (int64_t)f->side * f->side;
+    memcpy(f->queued, f->known, (size_t)cells);
+    f->count = 0;
+    for (int64_t i = 0; i < cells; i++) {
+        if (f->known[i]) {
+            queue_beside(f, i);
         }
-        memcpy(f->known, f->next, bytes);
+    }
+    for (int64_t k = 0, begin = 0; k < rounds; k++) {
+        int64_t end = f->count;
+        for (int64_t i = begin; i < end; i++) {
+            fill_cell(f, f->queue[i]);
+        }
+        for (int64_t i = begin; i < end; i++) {
+            f->known[f->queue[i]] = 1;
+            queue_beside(f, f->queue[i]);
+        }
+        begin = end;
     }
 }
 
@@ -288,9 +316,10 @@ bool shore_find_waves(Shore *shore, const Landscape *land, Error *e)
                  .channels = 3,
                  .side = w->side,
                  .known = memory_alloc(count, 1, e),
-                 .next = memory_alloc(count, 1, e)};
+                 .queued = memory_alloc(count, 1, e),
+                 .queue = memory_alloc(count, sizeof(int32_t), e)};
     find_open(shore, land);
-    bool done = room && f.known && f.next && find_land(w, e);
+    bool done = room && f.known && f.queued && f.queue && find_land(w, e);
     if (done) {
         sweep_all(w, &shore->params, room);
         for (int64_t i = 0; i < count; i++) {
@@ -301,7 +330,8 @@ bool shore_find_waves(Shore *shore, const Landscape *land, Error *e)
     }
     free(room);
     free(f.known);
-    free(f.next);
+    free(f.queued);
+    free(f.queue);
     return done;
 }
 

@@ -134,16 +134,14 @@ struct MeshAdapter {
     }
 };
 
-struct Interrupter {
+// Passed as its base class, for which OpenVDB's library holds the compiled tools.
+struct Interrupter final : openvdb::util::NullInterrupter {
     const Run *run;
 
-    void start(const char *)
+    explicit Interrupter(const Run *of) : run(of)
     {
     }
-    void end()
-    {
-    }
-    bool wasInterrupted(int = -1)
+    bool wasInterrupted(int) override
     {
         return run_is_cancelled(run);
     }
@@ -308,10 +306,11 @@ LevelSet *from_mesh(const Mesh *mesh, LevelSetFrame frame, const Run *run, Error
     bool done = guarded(e, [&] {
         made = make_empty(frame);
         MeshAdapter adapter{mesh, frame};
-        Interrupter interrupter{run};
+        Interrupter interrupter(run);
         with_threads(1, [&] {
             made->grid = openvdb::tools::meshToVolume<FloatGrid>(
-                interrupter, adapter, made->grid->transform(), LEVEL_SET_BAND, LEVEL_SET_BAND);
+                interrupter.interrupter(), adapter, made->grid->transform(), LEVEL_SET_BAND,
+                LEVEL_SET_BAND);
         });
         return !run_is_cancelled(run) || run_cancel_error(e);
     });
@@ -373,9 +372,8 @@ bool smooth(LevelSet *level_set, int steps, const Run *run, Error *e)
     VdbLevelSet &set = own(level_set);
     return guarded(e, [&] {
         with_threads(run->threads, [&] {
-            Interrupter interrupter{run};
-            openvdb::tools::LevelSetFilter<FloatGrid, FloatGrid, Interrupter> filter(*set.grid,
-                                                                                     &interrupter);
+            Interrupter interrupter(run);
+            openvdb::tools::LevelSetFilter<FloatGrid> filter(*set.grid, &interrupter.interrupter());
             filter.setSpatialScheme(openvdb::math::FIRST_BIAS); // the other schemes are five times
                                                                 // slower
             for (int i = 0; i < steps && !run_is_cancelled(run); i++) {
