@@ -273,7 +273,7 @@ static void it_measures_as_coasts_do(void **state)
 {
     (void)state;
     Grew grew;
-    grow(&grew, 512, SIDE_SOUTH, 0);
+    grow(&grew, 256, SIDE_SOUTH, 0);
     double steep = value(&grew, "cliff_slope"), beach = value(&grew, "beach_slope");
     double dimension = value(&grew, "shore_dimension"), sandy = value(&grew, "beach_share");
     printf("  cliffs %g m and %g degrees, beach %g degrees on %g, platform %g, dimension %g, %g "
