@@ -78,7 +78,7 @@ if [ "$sanitized" = no ]; then
     tells mesh 'mesh: {file: surface.stl}' 160
     estimates many 'ground: {grass_tufts: 150000}'
     estimates large 'shape: {envelope: [{shape: sphere}]}' --size 1200x800 --samples 1
-    estimates quarter 'tree: {leaves: {max_count: 50000}}' --size 640x400 --crop 0,0,0.5,0.5 --samples 24
+    estimates quarter 'tree: {leaves: {max_count: 50000}}' --size 640x400 --crop 0,0,0.5,0.5 --samples 4
     # What counts do not rule out is refused once it is built, before the first path.
     scene built 'ground: {grass_tufts: 150000}'
     check built_limit 2 "$RAMIFY" render built.yaml -o built.png -q --memory 250M

@@ -38,7 +38,7 @@ yes killed_is_the_same_display cmp whole.png cut.png
 yes nothing_half_is_left [ "$(find . -name '*.part' | wc -l)" -eq 0 ]
 
 # Killed in the first pass: the picture holds the first look where no sample has been.
-slow='--size 480x360 --samples 3 --noise 0 --no-denoise'
+slow='--size 320x240 --samples 3 --noise 0 --no-denoise'
 check slow_whole 0 "$RAMIFY" render scene.yaml -o slow.png -q $slow
 "$RAMIFY" render scene.yaml -o early.png -q $slow --checkpoint 0.001 --threads 1 &
 early=$!
