@@ -138,8 +138,8 @@ static bool shower_init(Shower *s, const TileWindow *window, Error *e)
     return true;
 }
 
-// Water is shared among lower neighbours by the squares of the slopes (Freeman 1991, rounder). What
-// `next` holds of the row is spent as the sum.
+// Water is shared among lower neighbours by the squares of the slopes (Freeman 1991, rounder).
+// `next` holds the sum of the squares meanwhile.
 static void share_water(const Shower *s, int64_t begin, int64_t end)
 {
     const float *h = s->window->height;
