@@ -131,8 +131,9 @@ fi
 
 # ---- Blender
 
+# Blender takes the prefix of its Python from the first one in PATH; one that is not Debian's lacks Debian's NumPy.
 if have blender; then
-    blender -b --factory-startup --python "$here/blender_meshes.py" -- "$folder" \
+    PATH=/usr/bin:/bin blender -b --factory-startup --python "$here/blender_meshes.py" -- "$folder" \
         blender_glb:bare.glb:bare.glb.json:closed,colored,lit,normals=bare.ply \
         blender_obj:bare.obj:bare.obj.json:closed,normals=bare.ply \
         blender_ply:bare.ply:bare.ply.json:closed,colored \
