@@ -308,9 +308,9 @@ LevelSet *from_mesh(const Mesh *mesh, LevelSetFrame frame, const Run *run, Error
         MeshAdapter adapter{mesh, frame};
         Interrupter interrupter(run);
         with_threads(1, [&] {
-            made->grid = openvdb::tools::meshToVolume<FloatGrid>(
-                interrupter.interrupter(), adapter, made->grid->transform(), LEVEL_SET_BAND,
-                LEVEL_SET_BAND);
+            made->grid = openvdb::tools::meshToVolume<FloatGrid>(interrupter.interrupter(), adapter,
+                                                                 made->grid->transform(),
+                                                                 LEVEL_SET_BAND, LEVEL_SET_BAND);
         });
         return !run_is_cancelled(run) || run_cancel_error(e);
     });
