@@ -6,13 +6,14 @@
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "objects/terrain/joints.h"
 #include "objects/terrain/noise.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_CELLS = 256 };
+enum { FIRST_CELLS = 256, SETS = 2 };
 
 typedef struct Coast {
     const Terrain *terrain;
@@ -58,69 +59,70 @@ static Coast coast_of(const Terrain *terrain)
 
 // ---- rock
 
-// Joints of one set: a line about every spacing, some much weaker than others.
-typedef struct Joints {
-    double share;  // 0..1: how much of a joint is at a place
-    int64_t block; // the last line before it
-} Joints;
+// Two sets of joints, one about across the shore, each with the direction of its normal.
+typedef struct Jointing {
+    JointSet set[SETS];
+    double x[SETS], z[SETS];
+} Jointing;
 
-static Joints joints_at(double across, double spacing, double cell, uint64_t key)
+static Jointing jointing_of(const Coast *c)
 {
-    double at = across / spacing, width = 0.07 * spacing;
-    double seen = width > 0.8 * cell ? 1.0 : width / (0.8 * cell);
-    width = width > 0.8 * cell ? width : 0.8 * cell;
-    int64_t near = (int64_t)floor(at);
-    Joints j = {.block = near - 2};
-    for (int64_t k = near - 1; k <= near + 1; k++) {
-        uint64_t own = random_key(key, (uint64_t)k);
-        double place = (double)k + 0.5 + (double)random_range(random_key(own, 1), -0.35f, 0.35f);
-        double u = (double)random_unit(random_key(own, 2)), d = (at - place) * spacing / width;
-        double share = u * exact_exp(-d * d) * seen;
-        j.share = share > j.share ? share : j.share;
-        j.block = at >= place ? k : j.block;
-    }
-    return j;
-}
-
-// How fast waves cut the rock at a place, relative to that of its bed: joints of two sets, one
-// about across the shore, and blocks between them.
-static double weakness(const Coast *c, double x, double z, double cell)
-{
-    uint64_t key = random_key(c->terrain->seed, STREAM_JOINTS), block = random_key(key, 3);
-    double spacing = (double)c->params.coast.joint_spacing, size = (double)c->params.size;
-    double contrast = (double)c->params.coast.joints, sine, cosine, most = 0.0;
-    float broad = sparse_noise_fractal((float)(4.0 * x / size), (float)(4.0 * z / size), 3, 0.6f,
-                                       0.0f, random_key(key, 1));
-    float fine = sparse_noise_fractal((float)(0.6 * x / spacing), (float)(0.6 * z / spacing), 4,
-                                      0.6f, 0.0f, random_key(key, 2));
-    for (int set = 0; set < 2; set++) {
-        uint64_t own = random_key(key, 10 + (uint64_t)set);
-        double turn = (double)random_range(random_key(own, 1), -0.35f, 0.35f) + 1.3 * set;
+    uint64_t key = random_key(c->terrain->seed, STREAM_JOINTS);
+    double spacing = (double)c->params.coast.joint_spacing, sine, cosine;
+    Jointing jointing;
+    for (int i = 0; i < SETS; i++) {
+        uint64_t own = random_key(key, 10 + (uint64_t)i);
+        double turn = (double)random_range(random_key(own, 1), -0.35f, 0.35f) + 1.3 * i;
         exact_sincos_double(turn, &sine, &cosine);
         // At turn 0 the joints run from the sea inland.
-        double nx = c->shore.sea_z != 0 ? cosine : -sine, nz = c->shore.sea_z != 0 ? sine : cosine;
-        double bend = 0.25 * spacing * (double)fine;
-        Joints j = joints_at(nx * x + nz * z + bend, spacing, cell, own);
-        most = j.share > most ? j.share : most;
-        block = random_key(block, (uint64_t)j.block);
+        jointing.x[i] = c->shore.sea_z != 0 ? cosine : -sine;
+        jointing.z[i] = c->shore.sea_z != 0 ? sine : cosine;
+        jointing.set[i] = (JointSet){spacing, 0.07 * spacing, 0.35f, 0.0, own};
     }
-    // They open and close along their way.
-    double open = 0.7 + 0.4 * (double)fine;
-    most *= open < 0.0 ? 0.0 : open > 1.2 ? 1.2 : open;
-    double own = (double)random_range(block, -1.1f, 0.9f);
-    double rock = exact_exp(contrast * (0.45 * (double)broad + 0.25 * (double)fine + own));
-    rock = rock < 0.15 ? 0.15 : rock > 3.0 ? 3.0 : rock;
-    return rock + 8.0 * contrast * most;
+    return jointing;
+}
+
+// How fast waves cut the rock, relative to that of its bed: joints, and blocks between them.
+static void set_part(const Coast *c, const Jointing *jointing, const RowPart *part, float *weakness)
+{
+    uint64_t key = random_key(c->terrain->seed, STREAM_JOINTS);
+    double contrast = (double)c->params.coast.joints, cell = part->land->cell;
+    double spacing = (double)c->params.coast.joint_spacing;
+    RowNoise of_land = {(double)c->params.size, 4.0, 3, 0.6f, random_key(key, 1)};
+    RowNoise of_joints = {spacing, 0.6, 4, 0.6f, random_key(key, 2)};
+    float broad[ROW_PART], fine[ROW_PART];
+    row_noise(&of_land, part, broad);
+    row_noise(&of_joints, part, fine);
+    double z = part->land->corner + part->row * cell;
+    for (int i = 0; i < part->count; i++) {
+        double x = part->land->corner + (part->first + i) * cell, most = 0.0;
+        double bend = 0.25 * spacing * (double)fine[i];
+        uint64_t block = random_key(key, 3);
+        for (int set = 0; set < SETS; set++) {
+            double across = jointing->x[set] * x + jointing->z[set] * z + bend;
+            Joint joint = joint_at(&jointing->set[set], across, cell);
+            most = joint.share > most ? joint.share : most;
+            block = random_key(block, (uint64_t)joint.block);
+        }
+        // They open and close along their way.
+        double open = 0.7 + 0.4 * (double)fine[i];
+        most *= open < 0.0 ? 0.0 : open > 1.2 ? 1.2 : open;
+        double own = (double)random_range(block, -1.1f, 0.9f);
+        double rock =
+            exact_exp(contrast * (0.45 * (double)broad[i] + 0.25 * (double)fine[i] + own));
+        rock = rock < 0.15 ? 0.15 : rock > 3.0 ? 3.0 : rock;
+        weakness[i] = (float)(rock + 8.0 * contrast * most);
+    }
 }
 
 static void set_weakness(const Coast *c, Landscape *land, const Run *run)
 {
+    const Jointing jointing = jointing_of(c);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
     for (int row = 0; row < land->side; row++) {
-        for (int column = 0; column < land->side; column++) {
-            double x = land->corner + column * land->cell, z = land->corner + row * land->cell;
-            land->weakness[(int64_t)row * land->side + column] =
-                (float)weakness(c, x, z, land->cell);
+        for (int first = 0; first < land->side; first += ROW_PART) {
+            RowPart part = row_part(land, row, first);
+            set_part(c, &jointing, &part, land->weakness + (int64_t)row * land->side + first);
         }
     }
 }

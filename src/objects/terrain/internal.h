@@ -280,6 +280,22 @@ typedef struct WeaknessNoise {
 void terrain_set_weakness(Landscape *land, const WeaknessNoise *noise, uint64_t key,
                           const Run *run);
 
+// row_noise.c: samples `first` .. `first + count - 1` of a row, and noise of mean 0 and variance 1
+// at them (n: `count` of it).
+enum { ROW_PART = 256 };
+typedef struct RowPart {
+    const Landscape *land; // borrowed
+    int row, first, count; // at most ROW_PART
+} RowPart;
+typedef struct RowNoise {
+    double unit, scale; // m; waves of the first octave in a unit
+    int octaves;        // each of half the length of the one before
+    float gain;         // of each octave beside the one before
+    uint64_t key;
+} RowNoise;
+RowPart row_part(const Landscape *land, int row, int first);
+void row_noise(const RowNoise *noise, const RowPart *part, float *n);
+
 // Land that rises while streams cut it down and soil creeps away, of the forms hills and badlands:
 // K per lifetime where evolution.streams is 1, and, measured (tests/objects/test_hills.c), the
 // distance from valley to valley over sqrt(D / K).
