@@ -109,17 +109,20 @@ static double river_middle(const Karst *k, const Landscape *land, int row)
 static void set_reached(const Karst *k, const RowPart *part, double *reached)
 {
     double river = (double)k->params.karst.river;
-    float n[ROW_PART];
-    if (river > 0.0) {
-        noise(6.0 * river, 3, random_key(k->key, 21), part, n);
+    if (!(river > 0.0)) {
+        for (int i = 0; i < part->count; i++) {
+            reached[i] = (double)INFINITY;
+        }
+        return;
     }
+    float n[ROW_PART];
+    noise(6.0 * river, 3, random_key(k->key, 21), part, n);
     double middle = river_middle(k, part->land, part->row);
     for (int i = 0; i < part->count; i++) {
         double x = part->land->corner + (part->first + i) * part->land->cell;
-        double wide = river > 0.0 ? 1.0 + 0.5 * (double)n[i] : 0.0;
+        double wide = 1.0 + 0.5 * (double)n[i];
         double half = 0.5 * river + river * (wide < 0.1 ? 0.1 : wide);
-        bool wet = river > 0.0 && fabs(x - middle) < half;
-        reached[i] = wet ? 0.0 : (double)INFINITY;
+        reached[i] = fabs(x - middle) < half ? 0.0 : (double)INFINITY;
     }
 }
 
