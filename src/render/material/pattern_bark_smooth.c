@@ -10,21 +10,35 @@
 // A lookup whose borders are ragged.
 static Vec3 ragged(const StemPlace *place, float around, float along, uint32_t seed)
 {
-    Vec3 torn, q = stem_lookup(place, around, along);
+    Vec3 torn, frayed, q = stem_lookup(place, around, along);
     noise_solid(vec3_scale(q, 2.6f), seed, &torn);
-    return vec3_madd(q, 0.09f, torn);
+    noise_solid(vec3_scale(q, 9.0f), seed, &frayed);
+    return vec3_madd(vec3_madd(q, 0.09f, torn), 0.030f, frayed);
 }
 
-// Crusts of lichen, up to a hand wide: pale ones and sooty ones, many together where it is light.
-static Vec3 add_crusts(Vec3 color, const StemPlace *place, float scale)
+// Colonies of crustose lichen of a size (m): each of its own grey, pale as a rule, with a dark line
+// where two meet; many together where it is light. seen: share of what is as fine.
+static Vec3 add_colonies(Vec3 color, const StemPlace *place, float size, float seen, uint32_t seed)
 {
-    float where = noise_solid(stem_lookup(place, 0.8f * scale, 0.6f * scale), 60, NULL);
-    float pale = noise_fractal(ragged(place, 0.13f * scale, 0.10f * scale, 64), 5, 52);
-    float crust = smoothstepf(0.10f, 0.17f, pale - 0.20f + 0.22f * where);
-    color = vec3_lerp(color, vec3_mul(color, vec3(1.17f, 1.20f, 1.13f)), crust);
+    float where = noise_fractal(stem_lookup(place, 7.0f * size, 5.0f * size), 4, seed);
+    Vec3 q = ragged(place, size, 0.75f * size, seed + 1);
+    CellPoint colony = noise_cells_on(q, stem_out(place), seed + 2);
+    if (noise_unit(colony.cell, 5) > 0.12f + 1.5f * where) {
+        return color;
+    }
+    float line = seen * (1.0f - smoothstepf(0.015f, 0.06f, colony.border));
+    float tone = lerpf(0.88f, 1.32f, noise_unit(colony.cell, 1)), hue = noise_unit(colony.cell, 2);
+    Vec3 tint = vec3_lerp(vec3(0.99f, 1.04f, 0.91f), vec3(0.97f, 1.0f, 1.02f), hue);
+    return vec3_mul(color, vec3_scale(tint, tone * (1.0f - 0.30f * line)));
+}
+
+// Dark stains where rain runs down the stem.
+static Vec3 add_stains(Vec3 color, const StemPlace *place, float scale)
+{
+    float run = noise_fractal(stem_lookup(place, 0.17f * scale, 2.4f * scale), 5, 69);
     float sooty = noise_fractal(ragged(place, 0.22f * scale, 0.13f * scale, 65), 6, 56);
-    float soot = smoothstepf(0.0f, 0.5f, sooty);
-    return vec3_lerp(color, vec3_mul(color, vec3(0.70f, 0.72f, 0.70f)), soot);
+    float stain = smoothstepf(0.0f, 0.55f, 0.8f * run + 0.6f * sooty);
+    return vec3_lerp(color, vec3_mul(color, vec3(0.58f, 0.60f, 0.56f)), stain);
 }
 
 // Small round crusts, some centimetres wide, and dark points. seen: share of what is as fine.
@@ -84,7 +98,9 @@ BarkLook bark_smooth(const Material *m, const StemPlace *place, float scale, flo
     float broad = pattern_detail(0.05f * scale, footprint);
     float tone = noise_fractal(stem_lookup(place, 0.55f * scale, 0.40f * scale), 6, 51);
     look.color = vec3_scale(m->color, 1.0f + 0.26f * tone);
-    look.color = add_crusts(look.color, place, scale);
+    look.color = add_stains(look.color, place, scale);
+    look.color = add_colonies(look.color, place, 0.13f * scale, broad, 70);
+    look.color = add_colonies(look.color, place, 0.045f * scale, seen, 74);
     look.color = add_spots(look.color, place, scale, broad);
     look.color = add_algae(look.color, place, scale);
     add_grain(&look, place, 0.16f * scale, 0.028f * scale, 0.30f * broad, 0.09f * broad, 63);
