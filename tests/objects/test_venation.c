@@ -209,6 +209,45 @@ static void the_blade_bulges_between_veins(void **state)
     out_tree_free(tree);
 }
 
+// Embedded veins have no curves; where they run, the blade is paler than anywhere in an areole, and
+// areoles differ, but not by much.
+static void thin_veins_lie_in_the_blade(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.embedded = 0.0003f;
+    OutTree *tree = grow(&params);
+    VenationParams full = venation_params_resolve(&params);
+    int64_t thick = 0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        thick += tree->parent[i] >= 0 && tree->radius[i] >= full.embedded;
+    }
+    CurveSet *curves = curves_of(tree, &full);
+    assert_int_equal(curves->curve_count, thick);
+    assert_true(thick > 0 && thick < tree->count - 1);
+    Relief relief;
+    Error e = {0};
+    assert_true(relief_init(&relief, &full, tree, &e));
+    Transform place = transform_identity();
+    Mesh *blade = venation_blade(&full, &relief, &place, &e);
+    assert_non_null(blade);
+    assert_non_null(blade->young);
+    int64_t veins = 0, greenest = 0, paler = 0;
+    for (int64_t i = 0; i < blade->vertex_count; i++) {
+        float young = blade->young[i];
+        assert_true(young >= 0.0f && young <= 1.0f);
+        veins += young > 0.5f;
+        greenest += young < 0.1f;
+        paler += young > 0.2f && young < 0.3f;
+    }
+    assert_true(veins > blade->vertex_count / 50 && veins < blade->vertex_count / 2);
+    assert_true(greenest > blade->vertex_count / 20 && paler > blade->vertex_count / 20);
+    mesh_free(blade);
+    curves_free(curves);
+    relief_clear(&relief);
+    out_tree_free(tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -217,6 +256,7 @@ int main(void)
         cmocka_unit_test(the_texture_shows_the_midrib_in_the_middle),
         cmocka_unit_test(the_net_is_measured_against_the_blade),
         cmocka_unit_test(the_blade_bulges_between_veins),
+        cmocka_unit_test(thin_veins_lie_in_the_blade),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 #include "objects/venation/blade.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 #include "objects/venation/vein_curves.h"
 
 #include <math.h>
@@ -9,7 +10,10 @@
 enum { FLAT_ROWS = 160, FLAT_COLUMNS = 48, LEAST_ROWS = 160, MOST_ROWS = 1600 };
 
 #define ROWS_PER_AREOLE 4
-#define FURROW 6.0f // half-width of a vein's furrow, in its radii
+#define ROWS_OF_LINES 6 // per areole, where lines as fine as the finest veins are drawn
+#define FURROW 6.0f     // half-width of a vein's furrow, in its radii
+#define SHEATH 1.8f     // half-width of a vein in the blade with the sheath about it, in its radii
+#define UNEVEN 0.3f     // how much paler than the greenest areole the palest is
 
 // ---- painting ----
 
@@ -19,11 +23,13 @@ typedef struct Canvas {
     float *pixel;
 } Canvas;
 
-// How a vein is painted: half-width and value in its middle, and whether as a round bar or as a
-// furrow with soft edges.
+// A round bar, a furrow with soft edges, or a flat line.
+typedef enum Profile { PROFILE_BAR, PROFILE_FURROW, PROFILE_LINE } Profile;
+
+// How a vein is painted: half-width, value in its middle, and profile.
 typedef struct Brush {
     float radius, peak;
-    bool bar;
+    Profile profile;
 } Brush;
 
 // Position of a pixel's middle on the flat leaf.
@@ -38,7 +44,18 @@ static Vec3 pixel_place(const Canvas *canvas, int column, int row)
 static float brush_value(const Brush *brush, float d)
 {
     float inner = 1.0f - d * d;
-    return brush->peak * (d >= 1.0f ? 0.0f : brush->bar ? sqrtf(inner) : inner * inner);
+    if (d >= 1.0f) {
+        return 0.0f;
+    }
+    switch (brush->profile) {
+    case PROFILE_BAR:
+        return brush->peak * sqrtf(inner);
+    case PROFILE_FURROW:
+        return brush->peak * (inner * inner);
+    case PROFILE_LINE:
+        break;
+    }
+    return brush->peak * (1.0f - smoothstepf(0.4f, 1.0f, d));
 }
 
 // Paints the maximum of overlapping veins.
@@ -72,7 +89,7 @@ static Brush bar_brush(const Canvas *canvas, float radius)
 {
     float pixel = canvas->params->outline.length / (float)canvas->height;
     float shown = radius > 0.7f * pixel ? radius : 0.7f * pixel;
-    return (Brush){shown, sqrtf(radius / canvas->params->midrib) * radius / shown, true};
+    return (Brush){shown, sqrtf(radius / canvas->params->midrib) * radius / shown, PROFILE_BAR};
 }
 
 // Furrows are as wide as their veins are thick, and somewhat less deep.
@@ -80,19 +97,30 @@ static Brush furrow_brush(const Canvas *canvas, float radius)
 {
     float pixel = canvas->params->outline.length / (float)canvas->height;
     float share = radius / canvas->params->midrib;
-    return (Brush){fmaxf(FURROW * radius, 1.5f * pixel), sqrtf(share * sqrtf(share)), false};
+    return (Brush){fmaxf(FURROW * radius, 1.5f * pixel), sqrtf(share * sqrtf(share)),
+                   PROFILE_FURROW};
 }
 
-static void paint_all(const Canvas *canvas, const OutTree *tree, bool bars)
+// Lines finer than the pixels are as much fainter as they are shown wider.
+static Brush line_brush(const Canvas *canvas, float radius)
 {
+    float pixel = canvas->params->outline.length / (float)canvas->height;
+    float width = SHEATH * radius, shown = fmaxf(width, 1.2f * pixel);
+    return (Brush){shown, width / shown, PROFILE_LINE};
+}
+
+// at: places of the nodes on the flat leaf.
+static void paint_all(const Canvas *canvas, const OutTree *tree, const Vec3 *at, Profile profile)
+{
+    static Brush (*const brush_for[])(const Canvas *, float) = {bar_brush, furrow_brush,
+                                                                line_brush};
     for (int64_t i = 0; i < (int64_t)canvas->width * canvas->height; i++) {
         canvas->pixel[i] = 0.0f;
     }
     for (int64_t i = 0; i < tree->count; i++) {
         if (tree->parent[i] >= 0) {
-            float radius = tree->radius[i];
-            Brush brush = bars ? bar_brush(canvas, radius) : furrow_brush(canvas, radius);
-            paint(canvas, tree->position[tree->parent[i]], tree->position[i], &brush);
+            Brush brush = brush_for[profile](canvas, tree->radius[i]);
+            paint(canvas, at[tree->parent[i]], at[i], &brush);
         }
     }
 }
@@ -106,35 +134,107 @@ bool venation_paint(const void *given, const OutTree *tree, int width, int heigh
     }
     VenationParams params = venation_params_resolve(given);
     Canvas canvas = {&params, width, height, pixel};
-    paint_all(&canvas, tree, true);
+    paint_all(&canvas, tree, tree->position, PROFILE_BAR);
     return true;
+}
+
+// ---- areoles ----
+
+// Sets the pixels of the areole about `start`, which no line covers, to value. stack: room for all
+// pixels; value must cover a line's edge, lest a pixel be visited twice.
+static void fill_areole(const Canvas *canvas, int start, float value, bool *seen, int *stack)
+{
+    int depth = 0, width = canvas->width, size = width * canvas->height;
+    seen[start] = true;
+    stack[depth++] = start;
+    while (depth > 0) {
+        int at = stack[--depth], column = at % width;
+        canvas->pixel[at] = fmaxf(canvas->pixel[at], value);
+        const int near[4] = {column > 0 ? at - 1 : -1, column + 1 < width ? at + 1 : -1, at - width,
+                             at + width};
+        for (int k = 0; k < 4; k++) {
+            int to = near[k];
+            if (to >= 0 && to < size && !seen[to]) {
+                seen[to] = true;
+                stack[depth++] = to;
+            }
+        }
+    }
+}
+
+// Gives every areole between painted lines a paleness of its own, 0 to UNEVEN.
+static bool vary_areoles(const Canvas *canvas, Error *e)
+{
+    const float covered = 0.3f; // by a line, from here on
+    int size = canvas->width * canvas->height;
+    bool *seen = memory_alloc(size, sizeof *seen, e);
+    int *stack = memory_alloc(size, sizeof *stack, e);
+    bool done = seen && stack;
+    for (int i = 0; done && i < size; i++) {
+        seen[i] = canvas->pixel[i] > covered;
+    }
+    for (int i = 0; done && i < size; i++) {
+        if (!seen[i]) {
+            float value = UNEVEN * random_unit(random_key(0, (uint64_t)i));
+            fill_areole(canvas, i, value, seen, stack);
+        }
+    }
+    free(seen);
+    free(stack);
+    return done;
 }
 
 // ---- relief ----
 
-bool relief_init(Relief *relief, const VenationParams *params, const OutTree *tree, Error *e)
+// Rows and columns of the painted blade, about as wide as high on the leaf.
+static void set_size(Relief *relief)
 {
-    *relief = (Relief){.params = params, .width = FLAT_COLUMNS, .height = FLAT_ROWS};
-    if (params->relief == 0.0f) {
-        return true;
-    }
-    int rows = ROWS_PER_AREOLE * params->detail;
+    const VenationParams *params = relief->params;
+    int rows = params->detail * (params->embedded > 0.0f ? ROWS_OF_LINES : ROWS_PER_AREOLE);
     relief->height = rows < LEAST_ROWS ? LEAST_ROWS : rows > MOST_ROWS ? MOST_ROWS : rows;
     float columns = (float)relief->height * params->outline.width / params->outline.length;
     relief->width = 8 + (int)fminf(columns, (float)MOST_ROWS);
-    relief->depth = memory_alloc((int64_t)relief->width * relief->height, sizeof *relief->depth, e);
-    if (!relief->depth) {
-        return false;
+}
+
+static bool paint_pale(Relief *relief, const OutTree *tree, Error *e)
+{
+    Canvas canvas = {relief->params, relief->width, relief->height, relief->pale};
+    Vec3 *at = venation_smoothed(tree, relief->params->smoothing, e);
+    if (at) {
+        paint_all(&canvas, tree, at, PROFILE_LINE);
     }
-    Canvas canvas = {params, relief->width, relief->height, relief->depth};
-    paint_all(&canvas, tree, false);
+    free(at);
+    return at && vary_areoles(&canvas, e);
+}
+
+bool relief_init(Relief *relief, const VenationParams *params, const OutTree *tree, Error *e)
+{
+    *relief = (Relief){.params = params, .width = FLAT_COLUMNS, .height = FLAT_ROWS};
+    if (params->relief == 0.0f && params->embedded == 0.0f) {
+        return true;
+    }
+    set_size(relief);
+    int64_t size = (int64_t)relief->width * relief->height;
+    if (params->relief != 0.0f) {
+        relief->depth = memory_alloc(size, sizeof *relief->depth, e);
+        if (!relief->depth) {
+            return false;
+        }
+        Canvas canvas = {params, relief->width, relief->height, relief->depth};
+        paint_all(&canvas, tree, tree->position, PROFILE_FURROW);
+    }
+    if (params->embedded > 0.0f) {
+        relief->pale = memory_alloc(size, sizeof *relief->pale, e);
+        return relief->pale && paint_pale(relief, tree, e);
+    }
     return true;
 }
 
 void relief_clear(Relief *relief)
 {
     free(relief->depth);
-    relief->depth = NULL;
+    free(relief->pale);
+    relief->depth = relief->pale = NULL;
 }
 
 // The two pixels about a place along one axis, and the second one's share.
@@ -146,20 +246,25 @@ static float between(float at, int size, int pixel[2])
     return inside - (float)pixel[0];
 }
 
-float relief_at(const Relief *relief, Vec3 p)
+// The value painted at p; 0 beyond the blade or without a picture.
+static float painted_at(const Relief *relief, const float *pixel, Vec3 p)
 {
     const LeafOutline *outline = &relief->params->outline;
     float half = leaf_half_width(outline, p.y);
-    if (!relief->depth || !(half > 0.0f)) {
+    if (!pixel || !(half > 0.0f)) {
         return 0.0f;
     }
     int x[2], y[2];
     float s = between(0.5f + 0.5f * p.x / half, relief->width, x);
     float t = between(1.0f - p.y / outline->length, relief->height, y);
-    const float *low = relief->depth + (size_t)y[0] * (size_t)relief->width;
-    const float *high = relief->depth + (size_t)y[1] * (size_t)relief->width;
-    float depth = lerpf(lerpf(low[x[0]], low[x[1]], s), lerpf(high[x[0]], high[x[1]], s), t);
-    return -relief->params->relief * depth;
+    const float *low = pixel + (size_t)y[0] * (size_t)relief->width;
+    const float *high = pixel + (size_t)y[1] * (size_t)relief->width;
+    return lerpf(lerpf(low[x[0]], low[x[1]], s), lerpf(high[x[0]], high[x[1]], s), t);
+}
+
+float relief_at(const Relief *relief, Vec3 p)
+{
+    return relief->depth ? -relief->params->relief * painted_at(relief, relief->depth, p) : 0.0f;
 }
 
 // ---- mesh ----
@@ -169,7 +274,7 @@ Mesh *venation_blade(const VenationParams *params, const Relief *relief, const T
 {
     int rows = relief->height, columns = relief->width;
     Mesh *mesh = mesh_new(4, (int64_t)(rows + 1) * (columns + 1), (int64_t)rows * columns,
-                          MESH_NORMAL | MESH_UV, e);
+                          MESH_NORMAL | MESH_UV | (relief->pale ? (int)MESH_YOUNG : 0), e);
     if (!mesh) {
         return NULL;
     }
@@ -181,6 +286,9 @@ Mesh *venation_blade(const VenationParams *params, const Relief *relief, const T
             float u = (float)c / (float)columns;
             int i = r * (columns + 1) + c;
             Vec3 flat = vec3((2.0f * u - 1.0f) * half, y, 0);
+            if (mesh->young) {
+                mesh->young[i] = painted_at(relief, relief->pale, flat);
+            }
             flat.z = relief_at(relief, flat);
             mesh->position[i] = transform_point(place, venation_bend(params, flat));
             mesh->uv[i] = (Vec2){u, v};

@@ -10,16 +10,19 @@ typedef struct Relief {
     const VenationParams *params; // borrowed
     int width, height;
     float *depth; // 0 between veins .. 1 in the middle of the midrib; NULL = flat
+    float *pale;  // 0 = as green as the greenest areole .. 1 = a vein in the blade; NULL = none lie
+                  // in it
 } Relief;
 
-// Paints the relief of the veins; flat without params->relief. Clear it after a failure, too.
+// Paints the relief of the veins; flat without params->relief, and plain without params->embedded.
+// Clear it after a failure, too.
 bool relief_init(Relief *relief, const VenationParams *params, const OutTree *tree, Error *e);
 void relief_clear(Relief *relief);
 
 // Height of the flat blade at p, m; 0 beyond it.
 float relief_at(const Relief *relief, Vec3 p);
 
-// The bent blade at its place, with uv; as fine as the relief.
+// The bent blade at its place, with uv, as fine as the relief; young where veins lie in it.
 Mesh *venation_blade(const VenationParams *params, const Relief *relief, const Transform *place,
                      Error *e);
 

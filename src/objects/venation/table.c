@@ -29,6 +29,10 @@ static const Key VENATION_KEYS[] = {
      .doc = "Radius of the midrib at the base; 0 = 0.008 of the length."},
     {KEY_OF(VenationParams, vein, "vein", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Radius of the finest veins; 0 = 0.06 of an areole."},
+    {KEY_OF(VenationParams, embedded, "embedded", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Radius below which veins lie in the blade, as in most broad leaves: lines with little "
+            "chlorophyll above and below them, which shine against the light, between areoles that "
+            "differ a little. Thicker ones stand out as tubes. 0 = all do. Needs a blade."},
     {KEY_OF(VenationParams, smoothing, "smoothing", KEY_INT), .high = 1000,
      .doc = "Number of passes that smooth the bends of veins, which then taper without steps; 0 = "
             "straight pieces as they grew."},

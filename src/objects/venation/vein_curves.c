@@ -89,11 +89,14 @@ static CurveSet *make_curves(const OutTree *tree, const Course *course,
 {
     int64_t pieces = 0;
     for (int64_t i = 0; i < tree->count; i++) {
-        pieces += tree->parent[i] >= 0;
+        pieces += tree->parent[i] >= 0 && !vein_is_embedded(params, tree->radius[i]);
     }
     CurveSet *curves = curves_new(2 * pieces, pieces, e);
     int64_t last = tree->count > 0 ? tree->birth[tree->count - 1] : 0, point = 0;
     for (int64_t i = 0; curves && i < tree->count; i++) {
+        if (vein_is_embedded(params, tree->radius[i])) {
+            continue;
+        }
         const int64_t end[2] = {tree->parent[i], i};
         for (int k = 0; end[0] >= 0 && k < 2; k++, point++) {
             bool tapers = params->smoothing > 0 && course->main[end[0]] == i;
@@ -108,6 +111,26 @@ static CurveSet *make_curves(const OutTree *tree, const Course *course,
         }
     }
     return curves;
+}
+
+bool vein_is_embedded(const VenationParams *params, float radius)
+{
+    return params->blade && radius < params->embedded;
+}
+
+Vec3 *venation_smoothed(const OutTree *tree, int passes, Error *e)
+{
+    Course course = {0};
+    Vec3 *position = NULL;
+    if (course_init(&course, tree, e)) {
+        for (int pass = 0; pass < passes; pass++) {
+            smooth(&course, tree);
+        }
+        position = course.position;
+        course.position = NULL;
+    }
+    course_free(&course);
+    return position;
 }
 
 CurveSet *venation_curves(const OutTree *tree, const VenationParams *params, const Relief *relief,

@@ -35,6 +35,7 @@ VenationParams venation_params_resolve(const VenationParams *given)
     params.outline.width = params.outline.width > 0.0f ? params.outline.width : 0.5f * length;
     params.midrib = params.midrib > 0.0f ? params.midrib : 0.008f * length;
     params.vein = params.vein > 0.0f ? params.vein : 0.06f * mesh;
+    params.embedded = fminf(params.embedded, 0.5f * params.midrib); // some veins stand out
     return params;
 }
 

@@ -18,6 +18,7 @@ typedef struct VenationParams {
     int smoothing;       // passes that round the veins' bends; with any, radii change gradually
     float midrib;        // m, radius at the base; 0 = 0.008 of the length
     float vein;          // m, radius of the finest; 0 = 0.06 of a mesh
+    float embedded;      // m: thinner veins (radius) lie in the blade, as lighter lines
     float petiole;       // m, length of the stalk; 0 = none
     float veinlets;      // share of areoles with a free-ending veinlet; above 0, stubs are cleared
     float relief;        // m: depth of the furrow of the midrib; lesser veins have lesser ones
