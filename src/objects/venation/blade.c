@@ -140,8 +140,8 @@ bool venation_paint(const void *given, const OutTree *tree, int width, int heigh
 
 // ---- areoles ----
 
-// Sets the pixels of the areole about `start`, which no line covers, to value. stack: room for all
-// pixels; value must cover a line's edge, lest a pixel be visited twice.
+// Sets the pixels of the areole about `start`, which no line covers, to value. seen: pixels that a
+// line covers or that are done. stack: room for all pixels.
 static void fill_areole(const Canvas *canvas, int start, float value, bool *seen, int *stack)
 {
     int depth = 0, width = canvas->width, size = width * canvas->height;
