@@ -209,8 +209,8 @@ static void the_blade_bulges_between_veins(void **state)
     out_tree_free(tree);
 }
 
-// Embedded veins have no curves; where they run, the blade is paler than anywhere in an areole, and
-// areoles differ, but not by much.
+// Embedded veins have no curves, and thicker ones sink in as they taper; where they run, the blade
+// is paler than anywhere in an areole, and areoles differ, but not by much.
 static void thin_veins_lie_in_the_blade(void **state)
 {
     (void)state;
@@ -225,6 +225,11 @@ static void thin_veins_lie_in_the_blade(void **state)
     CurveSet *curves = curves_of(tree, &full);
     assert_int_equal(curves->curve_count, thick);
     assert_true(thick > 0 && thick < tree->count - 1);
+    float thinnest = INFINITY; // where a tube sinks into the blade
+    for (int64_t i = 0; i < curves->point_count; i++) {
+        thinnest = fminf(thinnest, curves->radius[i]);
+    }
+    assert_true(thinnest > 0.0f && thinnest < 0.4f * full.embedded);
     Relief relief;
     Error e = {0};
     assert_true(relief_init(&relief, &full, tree, &e));

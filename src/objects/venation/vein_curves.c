@@ -83,18 +83,35 @@ static void smooth(Course *course, const OutTree *tree)
 
 // ---- curves ----
 
+// Does a vein of this radius lie in the blade?
+static bool is_embedded(const VenationParams *params, float radius)
+{
+    return params->blade && radius < params->embedded;
+}
+
+// The radius of the tube: a vein sinks into the blade as it gets thinner, so that none ends in it
+// with a step.
+static float tube_radius(const VenationParams *params, float radius)
+{
+    if (!params->blade || params->embedded == 0.0f) {
+        return radius;
+    }
+    float e = fminf(params->embedded, radius), least = 0.02f * radius;
+    return fmaxf(sqrtf(radius * radius - e * e), least);
+}
+
 static CurveSet *make_curves(const OutTree *tree, const Course *course,
                              const VenationParams *params, const Relief *relief,
                              const Transform *place, Error *e)
 {
     int64_t pieces = 0;
     for (int64_t i = 0; i < tree->count; i++) {
-        pieces += tree->parent[i] >= 0 && !vein_is_embedded(params, tree->radius[i]);
+        pieces += tree->parent[i] >= 0 && !is_embedded(params, tree->radius[i]);
     }
     CurveSet *curves = curves_new(2 * pieces, pieces, e);
     int64_t last = tree->count > 0 ? tree->birth[tree->count - 1] : 0, point = 0;
     for (int64_t i = 0; curves && i < tree->count; i++) {
-        if (vein_is_embedded(params, tree->radius[i])) {
+        if (is_embedded(params, tree->radius[i])) {
             continue;
         }
         const int64_t end[2] = {tree->parent[i], i};
@@ -104,18 +121,13 @@ static CurveSet *make_curves(const OutTree *tree, const Course *course,
             p.z += relief_at(relief, p);
             curves->position[point] = transform_point(place, venation_bend(params, p));
             // a branch begins with its own radius, not with that of the vein it leaves
-            curves->radius[point] = tree->radius[tapers ? end[k] : i];
+            curves->radius[point] = tube_radius(params, tree->radius[tapers ? end[k] : i]);
             curves->birth[point] = last > 0 ? (float)tree->birth[end[k]] / (float)last : 0.0f;
             curves->along[point] = tree->position[end[k]].y;
             curves->first[point / 2 + 1] = point + 1;
         }
     }
     return curves;
-}
-
-bool vein_is_embedded(const VenationParams *params, float radius)
-{
-    return params->blade && radius < params->embedded;
 }
 
 Vec3 *venation_smoothed(const OutTree *tree, int passes, Error *e)

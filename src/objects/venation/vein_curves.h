@@ -9,9 +9,6 @@
 // stalk straight.
 Vec3 venation_bend(const VenationParams *params, Vec3 p);
 
-// Does a vein of this radius lie in the blade?
-bool vein_is_embedded(const VenationParams *params, float radius);
-
 // Positions of the nodes after that many passes of smoothing, which the caller frees; NULL and e
 // when out of memory.
 Vec3 *venation_smoothed(const OutTree *tree, int passes, Error *e);
