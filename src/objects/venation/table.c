@@ -32,9 +32,8 @@ static const Key VENATION_KEYS[] = {
     {KEY_OF(VenationParams, embedded, "embedded", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Radius below which veins lie in the blade, as in most broad leaves: lines with little "
             "chlorophyll above and below them, which shine against the light, between areoles that "
-            "differ a little. Thicker ones stand out as tubes, the more the thicker they are. 0 = "
-            "all do. "
-            "Needs a blade."},
+            "differ a little. Thicker ones stand out as tubes, the more the thicker they are. At "
+            "most half of the midrib. 0 = all stand out. Needs a blade."},
     {KEY_OF(VenationParams, smoothing, "smoothing", KEY_INT), .high = 1000,
      .doc = "Number of passes that smooth the bends of veins, which then taper without steps; 0 = "
             "straight pieces as they grew."},

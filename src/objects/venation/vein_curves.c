@@ -81,6 +81,18 @@ static void smooth(Course *course, const OutTree *tree)
     course->next = old;
 }
 
+// Clear the course after a failure, too.
+static bool course_smoothed(Course *course, const OutTree *tree, int passes, Error *e)
+{
+    if (!course_init(course, tree, e)) {
+        return false;
+    }
+    for (int pass = 0; pass < passes; pass++) {
+        smooth(course, tree);
+    }
+    return true;
+}
+
 // ---- curves ----
 
 // Does a vein of this radius lie in the blade?
@@ -134,10 +146,7 @@ Vec3 *venation_smoothed(const OutTree *tree, int passes, Error *e)
 {
     Course course = {0};
     Vec3 *position = NULL;
-    if (course_init(&course, tree, e)) {
-        for (int pass = 0; pass < passes; pass++) {
-            smooth(&course, tree);
-        }
+    if (course_smoothed(&course, tree, passes, e)) {
         position = course.position;
         course.position = NULL;
     }
@@ -150,10 +159,7 @@ CurveSet *venation_curves(const OutTree *tree, const VenationParams *params, con
 {
     Course course = {0};
     CurveSet *curves = NULL;
-    if (course_init(&course, tree, e)) {
-        for (int pass = 0; pass < params->smoothing; pass++) {
-            smooth(&course, tree);
-        }
+    if (course_smoothed(&course, tree, params->smoothing, e)) {
         curves = make_curves(tree, &course, params, relief, place, e);
     }
     course_free(&course);

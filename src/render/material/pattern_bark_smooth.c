@@ -1,6 +1,6 @@
-// The smooth skin of beeches: silver-grey, with fine grain and folds across the stem, crusts of
-// lichen that differ little from it, and a film of algae where it is damp. Features of all sizes
-// from half a metre to millimetres, so that some are as fine as the pixel from any distance.
+// The smooth skin of beeches: silver-grey, with fine grain and folds across the stem, colonies of
+// crustose lichen, stains of running rain, and a film of algae where it is damp. Features of all
+// sizes from half a metre to millimetres, so that some are as fine as the pixel from any distance.
 #include "render/material/pattern_noise.h"
 #include "render/material/pattern_stem.h"
 
