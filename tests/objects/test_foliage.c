@@ -155,6 +155,31 @@ static void leaves_are_smaller_toward_the_base(void **state)
     geometry_clear(&tapered);
 }
 
+// The nodes within the foot are the same as without it; there are none above.
+static void leaves_keep_to_the_foot(void **state)
+{
+    (void)state;
+    const float foot = 0.3f;
+    LeavesParams leaves = plain_leaves(ARRANGE_DISTICHOUS);
+    Geometry all = grow_on(&leaves, (Vec3){1, 0, 0});
+    leaves.foot = foot;
+    Geometry low = grow_on(&leaves, (Vec3){1, 0, 0});
+    int64_t next = 0;
+    for (int64_t i = 0; i < all.part[0].instance_count; i++) {
+        const Transform *place = &all.part[0].instance[i];
+        if (place->m[0][3] > foot) {
+            continue;
+        }
+        assert_true(next < low.part[0].instance_count);
+        assert_memory_equal(place, &low.part[0].instance[next], sizeof *place);
+        next++;
+    }
+    assert_true(next > 0 && next < all.part[0].instance_count);
+    assert_int_equal(next, low.part[0].instance_count);
+    geometry_clear(&all);
+    geometry_clear(&low);
+}
+
 // Young leaves are at the end, the younger the nearer and the smaller; places stay, and so do
 // leaves of needles, whose mesh has its ages.
 static void the_tip_is_this_years(void **state)
@@ -490,6 +515,7 @@ int main(void)
         cmocka_unit_test(successive_leaves_are_turned_by_the_arrangement),
         cmocka_unit_test(leaves_are_smaller_toward_the_end),
         cmocka_unit_test(leaves_are_smaller_toward_the_base),
+        cmocka_unit_test(leaves_keep_to_the_foot),
         cmocka_unit_test(the_tip_is_this_years),
         cmocka_unit_test(two_rows_lie_left_and_right),
         cmocka_unit_test(hanging_leaves_hang),

@@ -142,9 +142,8 @@ static float leafy_length(const LeavesParams *leaves, const CurveSet *twigs, int
 {
     float length = 0.0f;
     int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1;
-    for (int64_t i = last; (leaves->base_leaves > 0 || has_young_tips(leaves)) && i > first &&
-                           twigs->radius[i] < leaves->twig_radius;
-         i--) {
+    bool needed = leaves->base_leaves > 0 || leaves->foot > 0.0f || has_young_tips(leaves);
+    for (int64_t i = last; needed && i > first && twigs->radius[i] < leaves->twig_radius; i--) {
         length += vec3_distance(twigs->position[i], twigs->position[i - 1]);
     }
     return length;
@@ -162,7 +161,7 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
         random_unit(random_key(twig_key, STREAM_SHARE)) >= foliage->share) {
         return 0;
     }
-    int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1, number = 0;
+    int64_t first = twigs->first[curve], last = twigs->first[curve + 1] - 1, number = 0, placed = 0;
     float until = pieces || tip_only
                       ? 0.0f
                       : 0.2f * foliage->spacing * random_unit(random_key(twig_key, STREAM_OFFSET));
@@ -175,6 +174,7 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
         Vec3 along = vec3_normalize(vec3_sub(a, b));
         reference = leaf_reference(leaves, reference, along);
         while (until < length) {
+            bool low = leaves->foot <= 0.0f || left - until <= leaves->foot;
             float young = youth_at(leaves, leafy - left + until, leafy, twig_key);
             LeafNode node = {.position = vec3_lerp(a, b, until / length),
                              .along = along,
@@ -185,20 +185,21 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
                                      leaf_size_above_base(leaves, left - until, foliage->spacing),
                              .young = young,
                              .key = random_key(twig_key, STREAM_LEAVES + (uint64_t)number)};
-            if (place && !add_node(foliage, twigs, first, i, &node, e)) {
+            if (place && low && !add_node(foliage, twigs, first, i, &node, e)) {
                 *failed = true;
-                return number;
+                return placed;
             }
             if (tip_only) {
                 return leaves_at_node(leaves);
             }
             until += pieces ? foliage->spacing : node_gap(foliage, number);
             number++;
+            placed += low;
         }
         until -= length;
         left -= length;
     }
-    return number * (pieces ? 1 : leaves_per_node(leaves));
+    return placed * (pieces ? 1 : leaves_per_node(leaves));
 }
 
 static int64_t all_leaves(Foliage *foliage, const CurveSet *twigs, bool place, bool *failed,

@@ -29,6 +29,7 @@ typedef struct LeavesParams {
     float crowding;    // 0..1: how much closer the last five nodes of a twig are
     int tip_leaves;    // nodes at a twig's end whose leaves are smaller toward it; 0 = none
     int base_leaves;   // the same at the lower end of its leafy part, from a third of the size
+    float foot;        // m of a twig's leafy part, from its lower end, that bear leaves; 0 = all
     float angle;       // degrees between a leaf and its twig; of a rosette that of its lowest
     float droop;       // 0..1, from the twig's frame to hanging and facing the light
     float hang;        // 0..1: how far blades hang straight down
