@@ -26,7 +26,8 @@ _Static_assert((int)WAVE_SIZE <= (int)SAMPLER_LANES && (int)WAVE_SIZE <= (int)BA
 void path_add_light(Path *path, Vec3 radiance)
 {
     Vec3 light = vec3_mul(path->throughput, radiance);
-    bool direct = path->depth < 2 && !path->in_cloud; // as of the light that clouds sample
+    // as of the light that clouds sample, and that no shadow ray finds
+    bool direct = path->depth < 2 && !path->in_cloud && !path->strayed;
     Vec3 *sum = direct ? &path->direct : &path->indirect;
     *sum = vec3_add(*sum, light);
 }

@@ -67,6 +67,7 @@ typedef struct Path {
     Vec3 veil_normal; // of the clouds there, times what they hide
     bool weighed;     // near lights were weighed by place there
     bool in_cloud;    // scattered by a droplet since the last surface
+    bool strayed;     // mirrored back into open water, where no shadow ray follows, since then
     bool lamps_known; // the light of lamps, up to the next surface, has been added
     bool shown;       // that of the lamp or glowing surface that the ray meets has been added
     bool mirrored;    // only mirror reflections since the camera

@@ -39,6 +39,7 @@ static bool leave_open_water(Path *path, const SurfacePoint *point)
                             path->key++);
     path->footprint = point->footprint;
     path->bsdf_pdf = 0.0f;
+    path->strayed = true;
     return ++path->crossings < MOST_CROSSINGS;
 }
 
@@ -201,7 +202,7 @@ static bool shade(Vertex *vertex)
     if (path->depth >= tracer->world->render.max_depth || !path_survives(path)) {
         return false;
     }
-    path->in_cloud = false;
+    path->in_cloud = path->strayed = false;
     if (path->depth > 0) {
         path_leave_diffusely(path);
     }

@@ -205,6 +205,43 @@ static void still_water_guides_by_what_it_mirrors(void **state)
     }
 }
 
+// A small white plate under open water in a white sky: straight through the surface it gathers what
+// passes, by Fresnel's equations. The rest is mirrored back past the plate to the sky below, where
+// no shadow ray goes: a bound on indirect light holds it, else a lamp met there is a firefly.
+static void what_is_mirrored_within_water_is_indirect(void **state)
+{
+    (void)state;
+    double mean[2], error[2];
+    for (int bounded = 0; bounded < 2; bounded++) {
+        World *world = tiny_world(8, 8, 256, 1.0f);
+        world->render.clamp = bounded ? 1e-6f : 0.0f;
+        world->sky.kind = SKY_CONSTANT;
+        world->sky.color = vec3_splat(1.0f);
+        world->material_count = 2;
+        world->material[1] = material_default(MATERIAL_WATER);
+        world->camera =
+            (Camera){.position = {0, 0.2f, 0}, .target = {0, 0, 0}, .up = {0, 0, 1}, .fov = 1};
+        add_mesh(world, quad_mesh(vec3(-0.2f, 0, 0.2f), vec3(0.4f, 0, 0), vec3(0, 0, -0.4f)), 0, 0);
+        add_mesh(world, quad_mesh(vec3(-400, 1, 400), vec3(800, 0, 0), vec3(0, 0, -800)), 1, 1);
+        Film *film = trace(world, 2, NULL);
+        mean[bounded] = mean_luminance(film);
+        error[bounded] = mean_error(film);
+        film_free(film);
+        world_free(world);
+    }
+    const double ior = (double)material_default(MATERIAL_WATER).ior;
+    double passes = 0.0;
+    enum { STEPS = 2000 };
+    for (int i = 0; i < STEPS; i++) {
+        float c = ((float)i + 0.5f) / STEPS;
+        double fresnel = (double)fresnel_dielectric(c, (float)ior, NULL);
+        passes += 2.0 * (double)c * (1.0 - fresnel) / (ior * ior) / STEPS;
+    }
+    assert_true(passes > 0.5 && passes < 0.54);
+    ASSERT_NEAR(mean[1], passes, 0.003 + 4.0 * error[1]);
+    ASSERT_NEAR(mean[0], 1.0, 0.003 + 4.0 * error[0]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -214,6 +251,7 @@ int main(void)
         cmocka_unit_test(sky_lights_the_bottom_by_fresnel),
         cmocka_unit_test(sampling_agrees_with_brute_force),
         cmocka_unit_test(still_water_guides_by_what_it_mirrors),
+        cmocka_unit_test(what_is_mirrored_within_water_is_indirect),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
