@@ -61,7 +61,7 @@ static bool find_hole(const BladeWear *wear, const OutTree *tree, uint64_t key, 
     const LeafOutline *outline = &wear->params->outline;
     float length = outline->length, large = draw(key, DRAW_SIZE, 0.0f, 1.0f);
     *hole = (WornPlace){.radius = length * (0.0035f + 0.02f * large * large * large),
-                        .rim = length * draw(key, DRAW_RIM, 0.0012f, 0.0030f),
+                        .rim = length * draw(key, DRAW_RIM, 0.0008f, 0.0022f),
                         .seed = (uint32_t)key};
     bool near = wear->holes > 0 && draw(key, DRAW_NEAR, 0.0f, 1.0f) < 0.5f;
     for (int i = 0; i < TRIES; i++) {
@@ -86,7 +86,7 @@ static void add_bite(BladeWear *wear, const OutTree *tree, uint64_t key)
     const LeafOutline *outline = &wear->params->outline;
     float length = outline->length, side = draw(key, DRAW_SIDE, -1.0f, 1.0f) < 0.0f ? -1.0f : 1.0f;
     float y = length * draw(key, DRAW_HEIGHT, 0.18f, 0.88f);
-    float rim = length * draw(key, DRAW_RIM, 0.0015f, 0.0035f);
+    float rim = length * draw(key, DRAW_RIM, 0.0010f, 0.0026f);
     for (int i = 0; i < BITE_PIECES; i++) {
         uint64_t own = random_key(random_key(key, DRAW_PICK), (uint64_t)i);
         float radius = length * draw(own, DRAW_SIZE, 0.012f, 0.030f);

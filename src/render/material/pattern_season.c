@@ -50,7 +50,7 @@ void pattern_season(const Material *m, const SurfacePoint *point, PatternShade *
 // straw. Where it withers from a spot outward, these lie about it as rings.
 void pattern_wither(const SurfacePoint *point, PatternShade *shade)
 {
-    const Vec3 brown = vec3(0.055f, 0.030f, 0.014f), brown_through = vec3(0.050f, 0.018f, 0.004f);
+    const Vec3 brown = vec3(0.055f, 0.030f, 0.014f), brown_through = vec3(0.045f, 0.022f, 0.006f);
     const Vec3 straw = vec3(0.200f, 0.130f, 0.065f), straw_through = vec3(0.170f, 0.085f, 0.028f);
     float yellow = smoothstepf(0.0f, 0.45f, point->withered);
     float dead = smoothstepf(0.45f, 0.70f, point->withered);
