@@ -75,7 +75,7 @@ float secondary_number(const LeafOutline *outline, int count, Vec3 p)
 {
     float half = leaf_half_width(outline, p.y), v = p.y / outline->length, base = v;
     float u = half > 0.0f ? fminf(fabsf(p.x) / half, 1.0f) : 0.0f;
-    for (int i = 0; i < 4; i++) { // the rise depends a little on the base
+    for (int i = 0; i < 2; i++) { // the rise depends a little on the base
         base = v - mean_rise(outline, base) * u * (0.62f + 0.38f * u);
     }
     return (base - LOWEST) / (HIGHEST - LOWEST) * (float)count - 0.5f -

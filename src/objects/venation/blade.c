@@ -34,12 +34,6 @@ typedef struct Brush {
     Profile profile;
 } Brush;
 
-// Position of a pixel's middle on the flat leaf.
-static Vec3 pixel_place(const Canvas *canvas, int column, int row)
-{
-    return blade_pixel(&canvas->params->outline, canvas->width, canvas->height, column, row);
-}
-
 // d: distance from the middle, in half-widths.
 static float brush_value(const Brush *brush, float d)
 {
@@ -67,12 +61,13 @@ static void paint(const Canvas *canvas, Vec3 a, Vec3 b, const Brush *brush)
     int row0 = (int)((1.0f - high / outline->length) * (float)canvas->height);
     int row1 = (int)((1.0f - low / outline->length) * (float)canvas->height) + 1;
     for (int r = row0 > 0 ? row0 : 0; r <= row1 && r < canvas->height; r++) {
-        float y = pixel_place(canvas, 0, r).y, columns = (float)canvas->width;
+        BladeRow row = blade_pixel_row(outline, canvas->height, r);
+        float columns = (float)canvas->width;
         float left = (a.x < b.x ? a.x : b.x) - shown, right = (a.x > b.x ? a.x : b.x) + shown;
-        int c0 = (int)fminf(columns * blade_column(outline, left, y), columns - 1.0f);
-        int c1 = (int)fminf(columns * blade_column(outline, right, y) + 1.0f, columns - 1.0f);
+        int c0 = (int)fminf(columns * blade_row_column(&row, left), columns - 1.0f);
+        int c1 = (int)fminf(columns * blade_row_column(&row, right) + 1.0f, columns - 1.0f);
         for (int c = c0; c <= c1; c++) {
-            Vec3 p = pixel_place(canvas, c, r), along = vec3_sub(b, a), to = vec3_sub(p, a);
+            Vec3 p = blade_pixel(&row, canvas->width, c), along = vec3_sub(b, a), to = vec3_sub(p, a);
             float length2 = vec3_dot(along, along);
             float t = length2 > 0.0f ? clampf(vec3_dot(to, along) / length2, 0.0f, 1.0f) : 0.0f;
             float d = vec3_distance(to, vec3_scale(along, t)) / shown;
@@ -277,12 +272,15 @@ static float between(float at, int size, int pixel[2])
 static float painted_at(const Relief *relief, const float *pixel, Vec3 p)
 {
     const LeafOutline *outline = &relief->params->outline;
-    float half = leaf_half_width(outline, p.y);
-    if (!pixel || !(half > 0.0f)) {
+    if (!pixel) {
+        return 0.0f;
+    }
+    BladeRow row = blade_row(outline, p.y);
+    if (!(row.half > 0.0f)) {
         return 0.0f;
     }
     int x[2], y[2];
-    float s = between(blade_column(outline, p.x, p.y), relief->width, x);
+    float s = between(blade_row_column(&row, p.x), relief->width, x);
     float t = between(1.0f - p.y / outline->length, relief->height, y);
     const float *low = pixel + (size_t)y[0] * (size_t)relief->width;
     const float *high = pixel + (size_t)y[1] * (size_t)relief->width;
@@ -303,11 +301,12 @@ static void fill_grid(Mesh *mesh, const LeafOutline *outline, int rows, int colu
 {
     uint32_t *corner = mesh->index;
     for (int r = 0; r <= rows; r++) {
-        float v = (float)r / (float)rows, y = v * outline->length;
+        float v = (float)r / (float)rows;
+        BladeRow row = blade_row(outline, v * outline->length);
         for (int c = 0; c <= columns; c++) {
             float u = (float)c / (float)columns;
             int i = r * (columns + 1) + c;
-            mesh->position[i] = vec3(blade_column_place(outline, u, y), y, 0);
+            mesh->position[i] = vec3(blade_row_place(&row, u), row.y, 0);
             mesh->uv[i] = (Vec2){u, v};
             if (r < rows && c < columns) {
                 uint32_t a = (uint32_t)i, b = a + (uint32_t)columns + 1;

@@ -2,39 +2,48 @@
 
 #define INNER 0.5f // share of the half width that no tooth moves
 
-float blade_column_place(const LeafOutline *outline, float u, float y)
+BladeRow blade_row(const LeafOutline *outline, float y)
 {
-    float across = 2.0f * u - 1.0f, half = leaf_half_width(outline, y);
-    if (!leaf_has_margin(outline)) {
-        return across * half;
+    BladeRow row = {.y = y, .half = leaf_half_width(outline, y)};
+    if (leaf_has_margin(outline)) {
+        row.more[0] = leaf_margin(outline, -1.0f, y) - row.half;
+        row.more[1] = leaf_margin(outline, 1.0f, y) - row.half;
     }
-    float side = across < 0.0f ? -1.0f : 1.0f;
-    float t = fmaxf(fabsf(across) - INNER, 0.0f) / (1.0f - INNER);
-    float more = leaf_margin(outline, side, y) - half;
-    return across * half + side * more * t * t;
+    return row;
 }
 
-float blade_column(const LeafOutline *outline, float x, float y)
+float blade_row_place(const BladeRow *row, float u)
 {
-    float half = leaf_half_width(outline, y);
+    float across = 2.0f * u - 1.0f, more = row->more[across >= 0.0f];
+    if (more == 0.0f) {
+        return across * row->half;
+    }
+    float t = fmaxf(fabsf(across) - INNER, 0.0f) / (1.0f - INNER);
+    return across * row->half + (across < 0.0f ? -more : more) * t * t;
+}
+
+float blade_row_column(const BladeRow *row, float x)
+{
+    float half = row->half, more = row->more[x >= 0.0f], beyond = fabsf(x) - INNER * half;
     if (!(half > 0.0f)) {
         return 0.5f;
     }
-    float side = x < 0.0f ? -1.0f : 1.0f, beyond = fabsf(x) - INNER * half;
-    if (!leaf_has_margin(outline) || beyond <= 0.0f) {
+    if (more == 0.0f || beyond <= 0.0f) {
         return clampf(0.5f + 0.5f * x / half, 0.0f, 1.0f);
     }
-    float edge = leaf_margin(outline, side, y);
-    beyond = fminf(beyond, edge - INNER * half);
+    beyond = fminf(beyond, half + more - INNER * half);
     // beyond = half w + more (w / (1 - INNER))^2
-    float more = (edge - half) / ((1.0f - INNER) * (1.0f - INNER));
+    more /= (1.0f - INNER) * (1.0f - INNER);
     float w = 2.0f * beyond / (half + sqrtf(fmaxf(half * half + 4.0f * more * beyond, 0.0f)));
-    return clampf(0.5f + 0.5f * side * (INNER + w), 0.0f, 1.0f);
+    return clampf(0.5f + 0.5f * (x < 0.0f ? -1.0f : 1.0f) * (INNER + w), 0.0f, 1.0f);
 }
 
-Vec3 blade_pixel(const LeafOutline *outline, int width, int height, int column, int row)
+BladeRow blade_pixel_row(const LeafOutline *outline, int height, int r)
 {
-    float y = outline->length * (1.0f - ((float)row + 0.5f) / (float)height);
-    float u = ((float)column + 0.5f) / (float)width;
-    return vec3(blade_column_place(outline, u, y), y, 0);
+    return blade_row(outline, outline->length * (1.0f - ((float)r + 0.5f) / (float)height));
+}
+
+Vec3 blade_pixel(const BladeRow *row, int width, int column)
+{
+    return vec3(blade_row_place(row, ((float)column + 0.5f) / (float)width), row->y, 0);
 }

@@ -6,13 +6,22 @@
 
 #include "shape/leaf_outline.h"
 
-// x (m) of column u, 0..1 from the left margin to the right, at height y.
-float blade_column_place(const LeafOutline *outline, float u, float y);
+// What a row needs of the outline, which takes long to find.
+typedef struct BladeRow {
+    float y, half; // m: height, and leaf_half_width there
+    float more[2]; // m: what the margin adds to that on the left and on the right
+} BladeRow;
 
-// u of the place x at height y, 0 and 1 beyond the margin; 0.5 where the blade has no width.
-float blade_column(const LeafOutline *outline, float x, float y);
+BladeRow blade_row(const LeafOutline *outline, float y);
 
-// Middle of a pixel of a picture of width x height, row by row from the tip, on the flat leaf.
-Vec3 blade_pixel(const LeafOutline *outline, int width, int height, int column, int row);
+// x (m) of column u, 0..1 from the left margin to the right.
+float blade_row_place(const BladeRow *row, float u);
+
+// u of the place x, 0 and 1 beyond the margin; 0.5 where the blade has no width.
+float blade_row_column(const BladeRow *row, float x);
+
+// Row r and the middle of a pixel in it, of a picture of width x height, row by row from the tip.
+BladeRow blade_pixel_row(const LeafOutline *outline, int height, int r);
+Vec3 blade_pixel(const BladeRow *row, int width, int column);
 
 #endif

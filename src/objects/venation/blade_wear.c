@@ -52,7 +52,8 @@ static float draw(uint64_t key, int number, float low, float high)
 static Vec3 any_place(const LeafOutline *outline, uint64_t key)
 {
     float y = outline->length * draw(key, DRAW_HEIGHT, 0.05f, 0.97f);
-    return vec3(blade_column_place(outline, draw(key, DRAW_SIDE, 0.02f, 0.98f), y), y, 0);
+    BladeRow row = blade_row(outline, y);
+    return vec3(blade_row_place(&row, draw(key, DRAW_SIDE, 0.02f, 0.98f)), y, 0);
 }
 
 // Holes are many and small or few and large; half of them lie near the one before.
@@ -202,12 +203,12 @@ static void paint_place(const WearCanvas *canvas, const WornPlace *place, bool i
     int row0 = (int)((outline->length - place->center.y - reach) * rows);
     int row1 = (int)((outline->length - place->center.y + reach) * rows) + 1;
     for (int r = row0 > 0 ? row0 : 0; r <= row1 && r < canvas->height; r++) {
-        float y = blade_pixel(outline, canvas->width, canvas->height, 0, r).y;
+        BladeRow row = blade_pixel_row(outline, canvas->height, r);
         float columns = (float)canvas->width;
-        int c0 = (int)(columns * blade_column(outline, place->center.x - reach, y));
-        int c1 = (int)(columns * blade_column(outline, place->center.x + reach, y));
+        int c0 = (int)(columns * blade_row_column(&row, place->center.x - reach));
+        int c1 = (int)(columns * blade_row_column(&row, place->center.x + reach));
         for (int c = c0; c <= c1 && c < canvas->width; c++) {
-            Vec3 p = blade_pixel(outline, canvas->width, canvas->height, c, r);
+            Vec3 p = blade_pixel(&row, canvas->width, c);
             float depth = depth_in(place, p);
             float value = is_hole ? rim_value(-depth / place->rim)
                                   : spot_value(place, depth, outline->length);
@@ -218,19 +219,18 @@ static void paint_place(const WearCanvas *canvas, const WornPlace *place, bool i
 }
 
 // Patches lose their green, more toward the margin, which dries here and there.
-static float patch_value(const VenationParams *params, Vec3 p)
+static float patch_value(const VenationParams *params, const BladeRow *row, Vec3 p)
 {
-    const LeafOutline *outline = &params->outline;
-    float half = leaf_half_width(outline, p.y);
-    if (!(half > 0.0f)) {
+    if (!(row->half > 0.0f)) {
         return 0.0f;
     }
-    float length = outline->length, out = fabsf(p.x) / half;
+    const LeafOutline *outline = &params->outline;
+    float length = outline->length, out = fabsf(p.x) / row->half;
     uint32_t seed = (uint32_t)outline->key;
     float patch = noise_fractal(vec3_scale(p, 1.0f / (PATCH * length)), 3, seed + 1);
     float yellow = 0.4f * smoothstepf(0.0f, 0.8f, patch + 0.25f * out * out * out);
     float side = p.x < 0.0f ? -1.0f : 1.0f;
-    float inward = (leaf_margin(outline, side, p.y) - fabsf(p.x)) / (DRY_MARGIN * length);
+    float inward = (row->half + row->more[p.x >= 0.0f] - fabsf(p.x)) / (DRY_MARGIN * length);
     float along = noise_fractal(vec3(9.0f * side, 8.0f * p.y / length, 0.0f), 3, seed + 2);
     float width = clampf(2.2f * along - 0.2f, 0.0f, 1.0f);
     float dry = width > 0.0f ? rim_value(2.0f * inward / width) : 0.0f;
@@ -241,9 +241,9 @@ void blade_wear_paint(const BladeWear *wear, int width, int height, float *withe
 {
     WearCanvas canvas = {&wear->params->outline, width, height, withered};
     for (int r = 0; wear->params->spots > 0.0f && r < height; r++) {
+        BladeRow row = blade_pixel_row(canvas.outline, height, r);
         for (int c = 0; c < width; c++) {
-            float value =
-                patch_value(wear->params, blade_pixel(canvas.outline, width, height, c, r));
+            float value = patch_value(wear->params, &row, blade_pixel(&row, width, c));
             float *at = &withered[(size_t)r * (size_t)width + (size_t)c];
             *at = fmaxf(*at, value);
         }
