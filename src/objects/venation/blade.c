@@ -67,7 +67,8 @@ static void paint(const Canvas *canvas, Vec3 a, Vec3 b, const Brush *brush)
         int c0 = (int)fminf(columns * blade_row_column(&row, left), columns - 1.0f);
         int c1 = (int)fminf(columns * blade_row_column(&row, right) + 1.0f, columns - 1.0f);
         for (int c = c0; c <= c1; c++) {
-            Vec3 p = blade_pixel(&row, canvas->width, c), along = vec3_sub(b, a), to = vec3_sub(p, a);
+            Vec3 p = blade_pixel(&row, canvas->width, c), along = vec3_sub(b, a),
+                 to = vec3_sub(p, a);
             float length2 = vec3_dot(along, along);
             float t = length2 > 0.0f ? clampf(vec3_dot(to, along) / length2, 0.0f, 1.0f) : 0.0f;
             float d = vec3_distance(to, vec3_scale(along, t)) / shown;

@@ -28,6 +28,7 @@ static float depth_in(const WornPlace *place, Vec3 p)
     Vec3 out = vec3_sub(p, place->center);
     float away = vec3_length(out);
     Vec3 way = vec3_scale(out, away > 0.0f ? 0.65f / away : 0.0f);
+    way.z = 0.4f; // between the zeros of the noise
     return place->radius * (1.0f + BUMPS * noise_fractal(way, 3, place->seed)) - away;
 }
 
