@@ -49,6 +49,9 @@ Mesh *mesh_new(int face_size, int64_t vertex_count, int64_t face_count, int arra
     if (made && (arrays & MESH_YOUNG)) {
         made = (mesh->young = memory_alloc_zero(vertex_count, sizeof(float), e));
     }
+    if (made && (arrays & MESH_WITHERED)) {
+        made = (mesh->withered = memory_alloc_zero(vertex_count, sizeof(float), e));
+    }
     if (!made) {
         mesh_free(mesh);
         return NULL;
@@ -69,6 +72,7 @@ void mesh_free(Mesh *mesh)
         free(mesh->foam);
         free(mesh->shore);
         free(mesh->young);
+        free(mesh->withered);
         strata_free(mesh->strata);
         waves_free(mesh->waves);
         free(mesh);

@@ -12,17 +12,19 @@ typedef struct Mesh {
     int face_size;        // vertices per face: 3 or 4, the same for all faces
     int64_t vertex_count; // below 2^32
     int64_t face_count;
-    uint32_t *index;       // face_count * face_size, counter-clockwise seen from outside
-    Vec3 *position;        // m
-    Vec3 *normal;          // unit, per vertex; NULL = flat shaded
-    Vec2 *uv;              // m, around and along on grown meshes, 0..1 elsewhere; NULL = none
-    float *radius;         // m, radius of the vertex's branch; NULL = none
-    float *birth;          // growth step, as a fraction of the last one, 0..1; NULL = none
-    Vec2 *site;            // land: altitude (x) and wetness (y), 0..1 each; NULL = none
-    float *foam;           // water: share of it that is white with air, 0..1; NULL = none
-    float *shore;          // land: m by which it lies lower than MESH_SHORE above the water near
-                           // it, 0 = higher or far from water; NULL = there is no water
-    float *young;          // leaves: 1 = grown this year, paler, 0 = older; NULL = older everywhere
+    uint32_t *index; // face_count * face_size, counter-clockwise seen from outside
+    Vec3 *position;  // m
+    Vec3 *normal;    // unit, per vertex; NULL = flat shaded
+    Vec2 *uv;        // m, around and along on grown meshes, 0..1 elsewhere; NULL = none
+    float *radius;   // m, radius of the vertex's branch; NULL = none
+    float *birth;    // growth step, as a fraction of the last one, 0..1; NULL = none
+    Vec2 *site;      // land: altitude (x) and wetness (y), 0..1 each; NULL = none
+    float *foam;     // water: share of it that is white with air, 0..1; NULL = none
+    float *shore;    // land: m by which it lies lower than MESH_SHORE above the water near
+                     // it, 0 = higher or far from water; NULL = there is no water
+    float *young;    // leaves: 1 = grown this year, paler, 0 = older; NULL = older everywhere
+    float *withered; // leaves: 0 = green, 0.45 = yellow, 0.7 = brown and moist, 1 = dead and dry;
+                     // NULL = green everywhere
     struct Waves *waves;   // of a sea, for what is finer than the mesh; owned; NULL = none
     struct Strata *strata; // land: its beds of rock, in the mesh's space; owned; NULL = none
 } Mesh;
@@ -36,7 +38,8 @@ enum {
     MESH_SITE = 16,
     MESH_FOAM = 32,
     MESH_SHORE_ARRAY = 64,
-    MESH_YOUNG = 128
+    MESH_YOUNG = 128,
+    MESH_WITHERED = 256
 };
 
 #define MESH_SHORE 8.0f // m above water: how far up shores reach

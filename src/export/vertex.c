@@ -94,6 +94,7 @@ static SurfacePoint pattern_point(const ExportSurface *surface, const Transform 
                           .foam = mesh->foam ? mesh->foam[v] : 0.0f,
                           .shore = mesh->shore ? mesh->shore[v] : 0.0f,
                           .young = mesh->young ? mesh->young[v] : 0.0f,
+                          .withered = mesh->withered ? mesh->withered[v] : 0.0f,
                           .strata = mesh->strata};
     Vec3 u, w;
     export_tangents(mesh, (const uint32_t[3]){corner[0], corner[1], corner[mesh->face_size - 1]},

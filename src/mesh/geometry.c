@@ -82,6 +82,7 @@ static int64_t mesh_bytes(const Mesh *mesh)
     vertex += mesh->foam ? sizeof(float) : 0;
     vertex += mesh->shore ? sizeof(float) : 0;
     vertex += mesh->young ? sizeof(float) : 0;
+    vertex += mesh->withered ? sizeof(float) : 0;
     return mesh->vertex_count * (int64_t)vertex +
            mesh->face_count * mesh->face_size * (int64_t)sizeof(uint32_t);
 }

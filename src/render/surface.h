@@ -37,6 +37,7 @@ typedef struct SurfacePoint {
     float variation;             // 0..1 per instance
     float season;                // of a leaf, -1..1: see InstanceLook
     float young;                 // of a leaf: 1 = this part of it grew this year, 0 = it is older
+    float withered;              // of a leaf: see Mesh.withered
     bool backface;               // the ray met the side away from the mesh's own orientation
     float
         epsilon; // m: how far along facet_normal a ray starts so as not to meet this surface again

@@ -179,6 +179,33 @@ static void secondary_veins_arch_to_one_another(void **state)
     out_tree_free(tree);
 }
 
+// A vein ends near the point of every tooth but perhaps the least, and none leaves the margin.
+static void veins_lead_to_the_points_of_teeth(void **state)
+{
+    (void)state;
+    VeinParams params = vein_params_default();
+    params.closed = true;
+    params.birth = 0.002f, params.kill = 0.001f, params.step = 0.0005f;
+    params.outline.teeth = 16;
+    params.outline.uneven = 0.5f;
+    VeinReport report;
+    OutTree *tree = grow(&params, NULL, &report);
+    int reached = 0;
+    for (int i = 0; i < 32; i++) {
+        Vec3 p = leaf_tooth(&params.outline, i % 2 ? 1.0f : -1.0f, i / 2);
+        float nearest = INFINITY;
+        for (int64_t n = 0; n < tree->count; n++) {
+            nearest = fminf(nearest, vec3_distance(tree->position[n], p));
+        }
+        reached += nearest < 1.6f * params.kill;
+    }
+    assert_in_range(reached, 28, 32);
+    for (int64_t n = 1; n < tree->count; n++) {
+        assert_true(leaf_contains(&params.outline, 1.001f, tree->position[n]));
+    }
+    out_tree_free(tree);
+}
+
 static void a_larger_leaf_has_the_same_veins(void **state)
 {
     (void)state;
@@ -286,6 +313,7 @@ int main(void)
         cmocka_unit_test(open_veins_come_to_every_source),
         cmocka_unit_test(closed_veins_have_loops),
         cmocka_unit_test(secondary_veins_arch_to_one_another),
+        cmocka_unit_test(veins_lead_to_the_points_of_teeth),
         cmocka_unit_test(a_larger_leaf_has_the_same_veins),
         cmocka_unit_test(veinlets_end_in_areoles),
         cmocka_unit_test(bad_numbers_are_named),

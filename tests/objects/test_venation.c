@@ -2,6 +2,7 @@
 #include "making.h"
 #include "testing.h"
 
+#include "objects/venation/blade_wave.h"
 #include "objects/venation/vein_curves.h"
 #include "objects/venation/venation.h"
 
@@ -253,6 +254,179 @@ static void thin_veins_lie_in_the_blade(void **state)
     out_tree_free(tree);
 }
 
+// A worn leaf as it has grown, flat.
+typedef struct WornLeaf {
+    OutTree *tree;
+    VenationParams params;
+    Relief relief;
+    Mesh *blade;
+} WornLeaf;
+
+static void worn_leaf_init(WornLeaf *leaf, VenationParams params)
+{
+    params.curl = params.fold = 0.0f;
+    leaf->tree = grow(&params);
+    leaf->params = venation_params_of(&params, leaf->tree);
+    Error e = {0};
+    Transform place = transform_identity();
+    assert_true(relief_init(&leaf->relief, &leaf->params, leaf->tree, &e));
+    leaf->blade = venation_blade(&leaf->params, &leaf->relief, &place, &e);
+    assert_non_null(leaf->blade);
+}
+
+static void worn_leaf_clear(WornLeaf *leaf)
+{
+    mesh_free(leaf->blade);
+    relief_clear(&leaf->relief);
+    out_tree_free(leaf->tree);
+}
+
+static double mesh_area(const Mesh *mesh)
+{
+    double area = 0.0;
+    for (int64_t f = 0; f < mesh->face_count; f++) {
+        const uint32_t *c = mesh->index + 4 * f;
+        Vec3 d = vec3_sub(mesh->position[c[2]], mesh->position[c[0]]);
+        Vec3 g = vec3_sub(mesh->position[c[3]], mesh->position[c[1]]);
+        area += 0.5 * (double)vec3_length(vec3_cross(d, g));
+    }
+    return area;
+}
+
+// Area that is within the margin and not eaten, by samples.
+static double sampled_area(const WornLeaf *leaf, double *eaten)
+{
+    const float step = 1e-4f;
+    double area = 0.0;
+    *eaten = 0.0;
+    for (float y = 0.0f; y < 0.1f; y += step) {
+        for (float x = -0.04f; x < 0.04f; x += step) {
+            Vec3 p = vec3(x, y, 0);
+            bool within = leaf_contains(&leaf->params.outline, 1.0f, p);
+            bool gone = within && blade_wear_depth(&leaf->relief.wear, p) > 0.0f;
+            area += within && !gone ? (double)(step * step) : 0.0;
+            *eaten += gone ? (double)(step * step) : 0.0;
+        }
+    }
+    return area;
+}
+
+// The blade ends at its toothed margin and at the rims of its holes; every vertex is of a face.
+static void a_worn_blade_is_what_teeth_and_holes_leave(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.detail = 100, params.closed = false; // fine enough a mesh
+    params.outline.teeth = 30, params.outline.uneven = 1.0f;
+    params.wear = 1.0f;
+    WornLeaf leaf;
+    worn_leaf_init(&leaf, params);
+    double eaten, area = sampled_area(&leaf, &eaten);
+    assert_true(leaf.relief.wear.holes > 8);
+    assert_true(eaten > 0.01 * area && eaten < 0.3 * area);
+    assert_true(fabs(mesh_area(leaf.blade) / area - 1.0) < 0.004);
+    bool *used = calloc((size_t)leaf.blade->vertex_count, sizeof *used);
+    for (int64_t i = 0; i < 4 * leaf.blade->face_count; i++) {
+        used[leaf.blade->index[i]] = true;
+    }
+    for (int64_t i = 0; i < leaf.blade->vertex_count; i++) {
+        Vec3 p = leaf.blade->position[i];
+        float edge = leaf_margin(&leaf.params.outline, p.x < 0.0f ? -1.0f : 1.0f, p.y);
+        assert_true(used[i]);
+        assert_true(blade_wear_depth(&leaf.relief.wear, p) < 1e-5f);
+        assert_true(fabsf(p.x) < edge + 4e-4f); // rims at the margin may lean out by a face
+    }
+    free(used);
+    Transform place = transform_identity();
+    Error e = {0};
+    CurveSet *veins = venation_curves(leaf.tree, &leaf.params, &leaf.relief, &place, &e);
+    assert_true(veins->curve_count < leaf.tree->count - 1);
+    for (int64_t i = 0; i < veins->point_count; i++) { // none hangs in a hole
+        assert_true(blade_wear_depth(&leaf.relief.wear, veins->position[i]) == 0.0f);
+    }
+    for (int64_t i = 0; i < leaf.tree->count; i++) { // thick ones are whole
+        assert_true(leaf.tree->radius[i] < 0.25f * leaf.params.midrib ||
+                    blade_wear_depth(&leaf.relief.wear, leaf.tree->position[i]) == 0.0f);
+    }
+    curves_free(veins);
+    worn_leaf_clear(&leaf);
+}
+
+// Rims of holes are dry, tissue far from them green; spots are few, and none without their key.
+static void rims_of_holes_are_dead_and_the_rest_is_green(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.detail = 100, params.closed = false;
+    params.wear = 0.6f;
+    WornLeaf leaf;
+    worn_leaf_init(&leaf, params);
+    const BladeWear *wear = &leaf.relief.wear;
+    assert_non_null(leaf.blade->withered);
+    double rim = 0.0, far = 0.0;
+    int rims = 0;
+    for (int64_t i = 0; i < leaf.blade->vertex_count; i++) {
+        float nearest = INFINITY;
+        for (int h = 0; h < wear->holes; h++) {
+            float away = vec3_distance(leaf.blade->position[i], wear->hole[h].center);
+            nearest = fminf(nearest, away - 1.5f * wear->hole[h].radius - 2.6f * wear->hole[h].rim);
+        }
+        far = fmax(far, nearest > 0.0005f ? (double)leaf.blade->withered[i] : 0.0);
+        Vec3 in = leaf.blade->position[i];
+        for (int h = 0; h < wear->holes; h++) { // is a tenth of a millimetre in, eaten?
+            Vec3 way = vec3_normalize(vec3_sub(wear->hole[h].center, in));
+            if (blade_wear_depth(wear, vec3_madd(in, 1e-4f, way)) > 0.00005f) {
+                rim += (double)leaf.blade->withered[i];
+                rims++;
+            }
+        }
+    }
+    assert_true(far == 0.0);
+    assert_true(rims > 50 && rim / rims > 0.7);
+    worn_leaf_clear(&leaf);
+    params.wear = 0.0f, params.spots = 1.0f;
+    worn_leaf_init(&leaf, params);
+    int64_t dead = 0, yellow = 0, n = leaf.blade->vertex_count;
+    for (int64_t i = 0; i < n; i++) {
+        float withered = leaf.blade->withered[i];
+        assert_true(withered >= 0.0f && withered <= 1.0f);
+        dead += withered > 0.6f;
+        yellow += withered > 0.1f && withered < 0.5f;
+    }
+    assert_true(leaf.relief.wear.holes == 0);
+    assert_true(dead > 0 && dead < n / 15 && yellow > n / 50 && yellow < n * 3 / 5);
+    worn_leaf_clear(&leaf);
+    worn_leaf_init(&leaf, small_params());
+    assert_null(leaf.blade->withered);
+    worn_leaf_clear(&leaf);
+}
+
+static void waves_rise_from_the_midrib_to_the_margin(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.wave = 0.002f;
+    WornLeaf leaf;
+    worn_leaf_init(&leaf, params);
+    float low = 0.0f, high = 0.0f, steepest = 0.0f;
+    int turns = 0, way = 0;
+    float before = 0.0f;
+    for (float y = 0.0f; y < 0.1f; y += 5e-5f) {
+        assert_true(relief_at(&leaf.relief, vec3(0, y, 0)) == 0.0f);
+        float z = relief_at(&leaf.relief, vec3(leaf_half_width(&leaf.params.outline, y), y, 0));
+        low = fminf(low, z), high = fmaxf(high, z);
+        steepest = fmaxf(steepest, fabsf(z - before) / 5e-5f);
+        int now = z > before ? 1 : -1;
+        turns += now != way, way = now, before = z;
+    }
+    assert_true(high > 0.25f * params.wave && high < 1.5f * params.wave);
+    assert_true(low < -0.25f * params.wave && low > -1.5f * params.wave);
+    assert_true(turns > 8 && turns < 40);
+    assert_true(steepest < 2.0f); // no folds
+    assert_true(blade_wave(&leaf.params, vec3(0, -0.01f, 0)) == 0.0f);
+    worn_leaf_clear(&leaf);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -262,6 +436,9 @@ int main(void)
         cmocka_unit_test(the_net_is_measured_against_the_blade),
         cmocka_unit_test(the_blade_bulges_between_veins),
         cmocka_unit_test(thin_veins_lie_in_the_blade),
+        cmocka_unit_test(a_worn_blade_is_what_teeth_and_holes_leave),
+        cmocka_unit_test(rims_of_holes_are_dead_and_the_rest_is_green),
+        cmocka_unit_test(waves_rise_from_the_midrib_to_the_margin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,6 +74,41 @@ static void young_leaves_are_paler_and_let_more_light_through(void **state)
     assert_true(turned.color.x + turned.transmittance.x < 1.0f);
 }
 
+static PatternShade withered_at(const Material *m, float withered)
+{
+    SurfacePoint point = {.uv = {0.3f, 0.5f},
+                          .variation = 0.5f,
+                          .withered = withered,
+                          .normal = {0, 0, 1},
+                          .tangent_u = {1, 0, 0},
+                          .tangent_v = {0, 1, 0}};
+    PatternShade shade = {m->color, m->transmittance, point.normal, 0.0f};
+    pattern_apply(m, &point, &shade);
+    return shade;
+}
+
+// Green, then yellow, then brown and dark, then dry and paler again; never more light than came.
+static void a_leaf_withers_from_green_over_yellow_and_brown_to_straw(void **state)
+{
+    (void)state;
+    Material m = leaf();
+    PatternShade green = withered_at(&m, 0.0f), yellow = withered_at(&m, 0.45f);
+    PatternShade brown = withered_at(&m, 0.7f), straw = withered_at(&m, 1.0f);
+    assert_memory_equal(&green.color, &m.color, sizeof m.color);
+    assert_true(green.transmittance.x < green.transmittance.y);
+    assert_true(yellow.transmittance.x >= yellow.transmittance.y);
+    assert_true(yellow.color.x > 0.9f * yellow.color.y && yellow.color.z < 0.4f * yellow.color.y);
+    assert_true(brown.transmittance.y < 0.3f * yellow.transmittance.y);
+    assert_true(brown.color.x > brown.color.y && brown.color.y > brown.color.z);
+    assert_true(straw.color.y > 2.0f * brown.color.y);
+    assert_true(straw.transmittance.x > straw.transmittance.y);
+    for (float w = 0.0f; w <= 1.0f; w += 0.05f) {
+        PatternShade shade = withered_at(&m, w);
+        assert_true(shade.color.x + shade.transmittance.x < 1.0f);
+        assert_true(shade.color.y + shade.transmittance.y < 1.0f);
+    }
+}
+
 // Bark and others have no season.
 static void only_leaves_have_a_season(void **state)
 {
@@ -89,6 +124,7 @@ int main(void)
         cmocka_unit_test(a_grown_leaf_has_its_own_colour_and_a_turned_one_the_autumns),
         cmocka_unit_test(leaves_turn_from_the_edge),
         cmocka_unit_test(young_leaves_are_paler_and_let_more_light_through),
+        cmocka_unit_test(a_leaf_withers_from_green_over_yellow_and_brown_to_straw),
         cmocka_unit_test(only_leaves_have_a_season),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -27,7 +27,8 @@ static inline uint64_t hash_mesh(uint64_t hash, const Mesh *mesh)
     hash = hash_bytes(hash, mesh->normal, sizeof(Vec3) * n);
     hash = hash_bytes(hash, mesh->uv, sizeof(Vec2) * n);
     hash = hash_bytes(hash, mesh->radius, sizeof(float) * n);
-    return hash_bytes(hash, mesh->birth, sizeof(float) * n);
+    hash = hash_bytes(hash, mesh->birth, sizeof(float) * n);
+    return hash_bytes(hash, mesh->withered, sizeof(float) * n);
 }
 
 static inline uint64_t hash_curves(uint64_t hash, const CurveSet *curves)

@@ -68,6 +68,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"dla: {particles: 1000}", 0xb153aa8f718541f4},
         {"sculpture: {attractors: 20}", 0xb7095b46207de548},
         {"venation: {}", 0x88c1ce75c8e51c3b},
+        {"venation: {teeth: 20, uneven: 1, wave: 0.002, wear: 1, spots: 1}", 0x5e2a5ef40c72f26b},
         {"vessels: {terminals: 100, envelope: [{shape: sphere, size: 0.1}]}", 0x7cac99eecdf0f5f5},
         {"fracture: {envelope: [{shape: sphere, size: 1}], attractors: 60, resolution: 50}",
          0xedf82202aa939c1e},

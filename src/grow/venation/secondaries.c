@@ -13,6 +13,13 @@ static float height_at(const Secondary *vein, float u)
     return vein->base + vein->rise * u * (0.62f + 0.38f * u);
 }
 
+// What a vein with this base would gain up to the margin, at most.
+static float mean_rise(const LeafOutline *outline, float base)
+{
+    float full = leaf_half_width(outline, base * outline->length) / (0.5f * outline->width);
+    return 0.07f + 0.16f * full;
+}
+
 // Without its arch.
 static Secondary make_course(const LeafOutline *outline, int number, int count, float side,
                              uint64_t key)
@@ -21,8 +28,7 @@ static Secondary make_course(const LeafOutline *outline, int number, int count, 
     float place =
         (float)number + 0.5f + STAGGER * side + random_range(random_key(own, 0), -UNEVEN, UNEVEN);
     Secondary vein = {.side = side, .base = LOWEST + (HIGHEST - LOWEST) * place / (float)count};
-    float full = leaf_half_width(outline, vein.base * outline->length) / (0.5f * outline->width);
-    vein.rise = (0.07f + 0.16f * full) * random_range(random_key(own, 1), 0.92f, 1.08f);
+    vein.rise = mean_rise(outline, vein.base) * random_range(random_key(own, 1), 0.92f, 1.08f);
     float room = 0.97f - vein.base;
     vein.rise = vein.rise < room ? vein.rise : room;
     return vein;
@@ -63,4 +69,15 @@ Vec3 secondary_arch_point(const LeafOutline *outline, const Secondary *vein, flo
     return on_blade(
         outline, vein,
         (Vec2){a * p[0].x + b * p[1].x + c * p[2].x, a * p[0].y + b * p[1].y + c * p[2].y});
+}
+
+float secondary_number(const LeafOutline *outline, int count, Vec3 p)
+{
+    float half = leaf_half_width(outline, p.y), v = p.y / outline->length, base = v;
+    float u = half > 0.0f ? fminf(fabsf(p.x) / half, 1.0f) : 0.0f;
+    for (int i = 0; i < 2; i++) { // the rise depends a little on the base
+        base = v - mean_rise(outline, base) * u * (0.62f + 0.38f * u);
+    }
+    return (base - LOWEST) / (HIGHEST - LOWEST) * (float)count - 0.5f -
+           STAGGER * (p.x < 0.0f ? -1.0f : 1.0f);
 }

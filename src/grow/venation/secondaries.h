@@ -31,4 +31,8 @@ Vec3 secondary_point(const LeafOutline *outline, const Secondary *vein, float t)
 // A point on the arch, from the turn, t = 0, to the next vein, t = 1.
 Vec3 secondary_arch_point(const LeafOutline *outline, const Secondary *vein, float t);
 
+// Where a point lies among `count` secondary veins of its side, were they not uneven: k on vein k,
+// k + 0.5 half-way to the next.
+float secondary_number(const LeafOutline *outline, int count, Vec3 p);
+
 #endif

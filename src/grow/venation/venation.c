@@ -7,11 +7,13 @@
 
 #include <stdlib.h>
 
-#define REACH 6.0f // births: influence radius of sources; they lie closer than that
-#define DARTS 1.5f // darts thrown per round for each source that the blade has room for
-#define SETTLE 400 // most steps after the blade is fully grown
+#define REACH 6.0f   // births: influence radius of sources; they lie closer than that
+#define DARTS 1.5f   // darts thrown per round for each source that the blade has room for
+#define SETTLE 400   // most steps after the blade is fully grown
+#define TOOTHED 0.5f // relative size of the blade from which veins grow toward its teeth
 
 enum { STREAM_ROUNDS = 1 }; // of the seed; one stream per round from it on; 0: young_leaf.c
+enum { STREAM_TEETH = -1 }; // of the seed
 enum { STREAM_X = 0, STREAM_Y = 1 }; // of a dart
 
 static Aabb blade_box(const Leaf *leaf)
@@ -73,6 +75,23 @@ static bool throw_darts(Leaf *leaf, int round, Error *e)
                       random_range(random_key(dart, STREAM_Y), box.low.y, box.high.y), 0);
         if (leaf_contains(&params->outline, leaf->scale, p) && is_free(leaf, old, p) &&
             !add_source(leaf, p, dart, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Teeth are maxima of auxin: a source in the point of each, short of the margin.
+static bool add_teeth(Leaf *leaf, Error *e)
+{
+    const VeinParams *params = leaf->params;
+    uint64_t key = random_key(params->seed, (uint64_t)STREAM_TEETH);
+    for (int i = 0; i < 2 * params->outline.teeth; i++) {
+        float side = i % 2 == 0 ? -1.0f : 1.0f;
+        Vec3 p = leaf_tooth(&params->outline, side, i / 2);
+        p.x -= side * 0.5f * params->kill;
+        if (p.x * side > 0.0f &&
+            !add_source(leaf, vec3_scale(p, leaf->scale), random_key(key, (uint64_t)i), e)) {
             return false;
         }
     }
@@ -250,13 +269,15 @@ static void enlarge(Leaf *leaf, float factor)
 static bool grow_leaf(Leaf *leaf, Error *e)
 {
     const VeinParams *params = leaf->params;
-    bool grew = true;
+    bool grew = true, toothed = params->marginal;
     for (int round = 0;; round++) {
         run_progress(leaf->run, "veins", (double)(leaf->scale * leaf->scale));
-        if (!throw_darts(leaf, round, e)) {
+        bool grown = leaf->scale >= 1.0f, half_grown = !toothed && leaf->scale >= TOOTHED;
+        toothed = toothed || half_grown;
+        // when it has grown once more, since veins stop as far from the points as they did then
+        if (((grown || half_grown) && !add_teeth(leaf, e)) || !throw_darts(leaf, round, e)) {
             return false;
         }
-        bool grown = leaf->scale >= 1.0f;
         grew = true;
         for (int i = 0; grew && i < (grown ? SETTLE : params->pace); i++) {
             if (!grow_step(leaf, &grew, e)) {

@@ -47,6 +47,9 @@ typedef struct VeinReport {
 OutTree *veins_grow(const VeinParams *params, PointSet *sources, VeinReport *report, const Run *run,
                     Error *e);
 
+// The id of the root of the veins that grow from this seed.
+uint64_t veins_root_id(uint64_t seed);
+
 // ---- nodes by cell, exposed for tests ----
 
 typedef struct VeinGrid {

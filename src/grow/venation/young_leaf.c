@@ -10,10 +10,15 @@
 
 enum { STREAM_ROOT_ID = 0 }; // of the seed
 
+uint64_t veins_root_id(uint64_t seed)
+{
+    return random_key(seed, STREAM_ROOT_ID);
+}
+
 int64_t leaf_add_node(Leaf *leaf, Vec3 p, int64_t parent, Error *e)
 {
     OutTree *tree = leaf->tree;
-    uint64_t id = parent < 0 ? random_key(leaf->params->seed, STREAM_ROOT_ID)
+    uint64_t id = parent < 0 ? veins_root_id(leaf->params->seed)
                              : out_tree_child_id(tree->id[parent], leaf->children[parent]++);
     int64_t node = out_tree_add_node(tree, p, parent, leaf->birth, 0, id, e);
     if (node < 0 || !memory_reserve(&leaf->children, &leaf->child_capacity, tree->count,

@@ -2,6 +2,8 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "objects/venation/blade_grid.h"
+#include "objects/venation/blade_wave.h"
 #include "objects/venation/vein_curves.h"
 
 #include <math.h>
@@ -32,14 +34,6 @@ typedef struct Brush {
     Profile profile;
 } Brush;
 
-// Position of a pixel's middle on the flat leaf.
-static Vec3 pixel_place(const Canvas *canvas, int column, int row)
-{
-    float y = canvas->params->outline.length * (1.0f - ((float)row + 0.5f) / (float)canvas->height);
-    float u = ((float)column + 0.5f) / (float)canvas->width;
-    return vec3((2.0f * u - 1.0f) * leaf_half_width(&canvas->params->outline, y), y, 0);
-}
-
 // d: distance from the middle, in half-widths.
 static float brush_value(const Brush *brush, float d)
 {
@@ -67,13 +61,14 @@ static void paint(const Canvas *canvas, Vec3 a, Vec3 b, const Brush *brush)
     int row0 = (int)((1.0f - high / outline->length) * (float)canvas->height);
     int row1 = (int)((1.0f - low / outline->length) * (float)canvas->height) + 1;
     for (int r = row0 > 0 ? row0 : 0; r <= row1 && r < canvas->height; r++) {
-        float half = leaf_half_width(outline, pixel_place(canvas, 0, r).y);
+        BladeRow row = blade_pixel_row(outline, canvas->height, r);
+        float columns = (float)canvas->width;
         float left = (a.x < b.x ? a.x : b.x) - shown, right = (a.x > b.x ? a.x : b.x) + shown;
-        float scale = half > 0.0f ? 0.5f * (float)canvas->width / half : 0.0f;
-        int c0 = (int)clampf((left + half) * scale, 0.0f, (float)(canvas->width - 1));
-        int c1 = (int)clampf((right + half) * scale + 1.0f, 0.0f, (float)(canvas->width - 1));
+        int c0 = (int)fminf(columns * blade_row_column(&row, left), columns - 1.0f);
+        int c1 = (int)fminf(columns * blade_row_column(&row, right) + 1.0f, columns - 1.0f);
         for (int c = c0; c <= c1; c++) {
-            Vec3 p = pixel_place(canvas, c, r), along = vec3_sub(b, a), to = vec3_sub(p, a);
+            Vec3 p = blade_pixel(&row, canvas->width, c), along = vec3_sub(b, a),
+                 to = vec3_sub(p, a);
             float length2 = vec3_dot(along, along);
             float t = length2 > 0.0f ? clampf(vec3_dot(to, along) / length2, 0.0f, 1.0f) : 0.0f;
             float d = vec3_distance(to, vec3_scale(along, t)) / shown;
@@ -132,7 +127,7 @@ bool venation_paint(const void *given, const OutTree *tree, int width, int heigh
         return error_set(e, ERROR_INPUT, "a picture of %d x %d; both must be above 0", width,
                          height);
     }
-    VenationParams params = venation_params_resolve(given);
+    VenationParams params = venation_params_of(given, tree);
     Canvas canvas = {&params, width, height, pixel};
     paint_all(&canvas, tree, tree->position, PROFILE_BAR);
     return true;
@@ -207,16 +202,40 @@ static bool paint_pale(Relief *relief, const OutTree *tree, Error *e)
     return at && vary_areoles(&canvas, e);
 }
 
+static float *new_picture(const Relief *relief, Error *e)
+{
+    return memory_alloc_zero((int64_t)relief->width * relief->height, sizeof(float), e);
+}
+
+// Yellow patches follow the areoles, each of which keeps some green of its own, and veins keep
+// most.
+static bool paint_withered(Relief *relief, Error *e)
+{
+    relief->withered = new_picture(relief, e);
+    if (!relief->withered) {
+        return false;
+    }
+    blade_wear_paint(&relief->wear, relief->width, relief->height, relief->withered);
+    int64_t size = relief->pale ? (int64_t)relief->width * relief->height : 0;
+    const float dying = 0.45f; // from here on it is more than yellow
+    for (int64_t i = 0; i < size; i++) {
+        float pale = relief->pale[i], keeps = pale < UNEVEN ? 0.7f * pale / UNEVEN : 0.7f;
+        float value = relief->withered[i];
+        relief->withered[i] = value * (1.0f - keeps * (1.0f - smoothstepf(0.0f, dying, value)));
+    }
+    return true;
+}
+
 bool relief_init(Relief *relief, const VenationParams *params, const OutTree *tree, Error *e)
 {
     *relief = (Relief){.params = params, .width = FLAT_COLUMNS, .height = FLAT_ROWS};
-    if (params->relief == 0.0f && params->embedded == 0.0f) {
-        return true;
+    bool worn = params->wear > 0.0f || params->spots > 0.0f;
+    if (params->relief != 0.0f || params->embedded > 0.0f || params->wave != 0.0f || worn ||
+        leaf_has_margin(&params->outline)) {
+        set_size(relief);
     }
-    set_size(relief);
-    int64_t size = (int64_t)relief->width * relief->height;
     if (params->relief != 0.0f) {
-        relief->depth = memory_alloc(size, sizeof *relief->depth, e);
+        relief->depth = new_picture(relief, e);
         if (!relief->depth) {
             return false;
         }
@@ -224,17 +243,21 @@ bool relief_init(Relief *relief, const VenationParams *params, const OutTree *tr
         paint_all(&canvas, tree, tree->position, PROFILE_FURROW);
     }
     if (params->embedded > 0.0f) {
-        relief->pale = memory_alloc(size, sizeof *relief->pale, e);
-        return relief->pale && paint_pale(relief, tree, e);
+        relief->pale = new_picture(relief, e);
+        if (!relief->pale || !paint_pale(relief, tree, e)) {
+            return false;
+        }
     }
-    return true;
+    return !worn || (blade_wear_init(&relief->wear, params, tree, e) && paint_withered(relief, e));
 }
 
 void relief_clear(Relief *relief)
 {
     free(relief->depth);
     free(relief->pale);
-    relief->depth = relief->pale = NULL;
+    free(relief->withered);
+    blade_wear_clear(&relief->wear);
+    relief->depth = relief->pale = relief->withered = NULL;
 }
 
 // The two pixels about a place along one axis, and the second one's share.
@@ -250,12 +273,15 @@ static float between(float at, int size, int pixel[2])
 static float painted_at(const Relief *relief, const float *pixel, Vec3 p)
 {
     const LeafOutline *outline = &relief->params->outline;
-    float half = leaf_half_width(outline, p.y);
-    if (!pixel || !(half > 0.0f)) {
+    if (!pixel) {
+        return 0.0f;
+    }
+    BladeRow row = blade_row(outline, p.y);
+    if (!(row.half > 0.0f)) {
         return 0.0f;
     }
     int x[2], y[2];
-    float s = between(0.5f + 0.5f * p.x / half, relief->width, x);
+    float s = between(blade_row_column(&row, p.x), relief->width, x);
     float t = between(1.0f - p.y / outline->length, relief->height, y);
     const float *low = pixel + (size_t)y[0] * (size_t)relief->width;
     const float *high = pixel + (size_t)y[1] * (size_t)relief->width;
@@ -264,33 +290,24 @@ static float painted_at(const Relief *relief, const float *pixel, Vec3 p)
 
 float relief_at(const Relief *relief, Vec3 p)
 {
-    return relief->depth ? -relief->params->relief * painted_at(relief, relief->depth, p) : 0.0f;
+    float wave = blade_wave(relief->params, p);
+    return relief->depth ? wave - relief->params->relief * painted_at(relief, relief->depth, p)
+                         : wave;
 }
 
 // ---- mesh ----
 
-Mesh *venation_blade(const VenationParams *params, const Relief *relief, const Transform *place,
-                     Error *e)
+// The grid of the flat blade. Its faces see the front.
+static void fill_grid(Mesh *mesh, const LeafOutline *outline, int rows, int columns)
 {
-    int rows = relief->height, columns = relief->width;
-    Mesh *mesh = mesh_new(4, (int64_t)(rows + 1) * (columns + 1), (int64_t)rows * columns,
-                          MESH_NORMAL | MESH_UV | (relief->pale ? (int)MESH_YOUNG : 0), e);
-    if (!mesh) {
-        return NULL;
-    }
     uint32_t *corner = mesh->index;
     for (int r = 0; r <= rows; r++) {
-        float v = (float)r / (float)rows, y = v * params->outline.length;
-        float half = leaf_half_width(&params->outline, y);
+        float v = (float)r / (float)rows;
+        BladeRow row = blade_row(outline, v * outline->length);
         for (int c = 0; c <= columns; c++) {
             float u = (float)c / (float)columns;
             int i = r * (columns + 1) + c;
-            Vec3 flat = vec3((2.0f * u - 1.0f) * half, y, 0);
-            if (mesh->young) {
-                mesh->young[i] = painted_at(relief, relief->pale, flat);
-            }
-            flat.z = relief_at(relief, flat);
-            mesh->position[i] = transform_point(place, venation_bend(params, flat));
+            mesh->position[i] = vec3(blade_row_place(&row, u), row.y, 0);
             mesh->uv[i] = (Vec2){u, v};
             if (r < rows && c < columns) {
                 uint32_t a = (uint32_t)i, b = a + (uint32_t)columns + 1;
@@ -299,7 +316,33 @@ Mesh *venation_blade(const VenationParams *params, const Relief *relief, const T
             }
         }
     }
-    if (!mesh_compute_normals(mesh, e)) {
+}
+
+Mesh *venation_blade(const VenationParams *params, const Relief *relief, const Transform *place,
+                     Error *e)
+{
+    int rows = relief->height, columns = relief->width;
+    int arrays = MESH_NORMAL | MESH_UV | (relief->pale ? (int)MESH_YOUNG : 0) |
+                 (relief->withered ? (int)MESH_WITHERED : 0);
+    Mesh *mesh =
+        mesh_new(4, (int64_t)(rows + 1) * (columns + 1), (int64_t)rows * columns, arrays, e);
+    if (!mesh) {
+        return NULL;
+    }
+    fill_grid(mesh, &params->outline, rows, columns);
+    bool done = relief->wear.holes == 0 || blade_wear_cut(&relief->wear, mesh, e);
+    for (int64_t i = 0; done && i < mesh->vertex_count; i++) {
+        Vec3 flat = mesh->position[i];
+        if (mesh->young) {
+            mesh->young[i] = painted_at(relief, relief->pale, flat);
+        }
+        if (mesh->withered) {
+            mesh->withered[i] = painted_at(relief, relief->withered, flat);
+        }
+        flat.z = relief_at(relief, flat);
+        mesh->position[i] = transform_point(place, venation_bend(params, flat));
+    }
+    if (!done || !mesh_compute_normals(mesh, e)) {
         mesh_free(mesh);
         return NULL;
     }

@@ -15,6 +15,21 @@ static const Key VENATION_KEYS[] = {
      .doc = "Position of the greatest width, as a fraction of the length from the base."},
     {KEY_OF(VenationParams, outline.tip, "tip", KEY_FLOAT), .low = 0.2, .high = 10,
      .doc = "How pointed base and tip are: 1 = elliptical, 2 = drawn out."},
+    {KEY_OF(VenationParams, outline.teeth, "teeth", KEY_INT), .high = 400,
+     .doc = "Number of teeth on each side of the margin, to whose points veins lead: about 50 on a "
+            "cherry's leaf, 25 on a hazel's; 0 = an entire margin."},
+    {KEY_OF(VenationParams, outline.tooth_depth, "tooth_depth", KEY_FLOAT), .high = 1000,
+     .unit = "m",
+     .doc = "Depth of a tooth; at most 0.3 of the blade's half width. 0 = 0.4 of a "
+            "tooth's length."},
+    {KEY_OF(VenationParams, outline.tooth_round, "tooth_round", KEY_FLOAT), .high = 1,
+     .doc = "From saw teeth that point to the tip, 0, to round scallops, 1."},
+    {KEY_OF(VenationParams, outline.double_teeth, "double_teeth", KEY_BOOL),
+     .doc = "Three small teeth on each, as birch's and hazel's."},
+    {KEY_OF(VenationParams, outline.uneven, "uneven", KEY_FLOAT), .high = 1,
+     .doc =
+         "How much teeth differ in length and depth, and the two sides of the blade in width (up "
+         "to 6 %)."},
     {KEY_OF(VenationParams, closed, "closed", KEY_BOOL),
      .doc = "Veins form loops, as in most leaves; false = they form a tree."},
     {KEY_OF(VenationParams, marginal, "marginal", KEY_BOOL),
@@ -45,6 +60,15 @@ static const Key VENATION_KEYS[] = {
          "Depth of the furrow in which the midrib lies, seen from the front; lesser veins lie in "
          "lesser ones, so that the blade bulges between them. Below 0 they stand out, as on a "
          "leaf's underside."},
+    {KEY_OF(VenationParams, wave, "wave", KEY_FLOAT), .low = -1000, .high = 1000, .unit = "m",
+     .doc = "Height of the blade's waves, which grow from the midrib to the margin: furrows along "
+            "the secondary veins, and longer waves of the margin."},
+    {KEY_OF(VenationParams, wear, "wear", KEY_FLOAT), .high = 1,
+     .doc = "Traces of insects, with dead rims: up to 16 holes and 3 bites at the margin. Thick "
+            "veins are left whole. Needs a blade."},
+    {KEY_OF(VenationParams, spots, "spots", KEY_FLOAT), .high = 1,
+     .doc = "Age: up to 110 dead spots with yellow halos, patches that turn yellow, and a margin "
+            "that dries here and there. Needs a blade."},
     {KEY_OF(VenationParams, petiole, "petiole", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Length of the stalk; 0 = none."},
     {KEY_OF(VenationParams, curl, "curl", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",

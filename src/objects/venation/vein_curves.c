@@ -112,22 +112,33 @@ static float tube_radius(const VenationParams *params, float radius)
     return fmaxf(sqrtf(radius * radius - e * e), least);
 }
 
+// Is there a tube for the piece up to this node? A vein in the blade is painted on it, and one that
+// insects have eaten with the blade is gone.
+static bool is_tube(const OutTree *tree, const Course *course, const VenationParams *params,
+                    const Relief *relief, int64_t node)
+{
+    int32_t parent = tree->parent[node];
+    return parent >= 0 && !is_embedded(params, tree->radius[node]) &&
+           !(blade_wear_depth(&relief->wear, course->position[node]) > 0.0f) &&
+           !(blade_wear_depth(&relief->wear, course->position[parent]) > 0.0f);
+}
+
 static CurveSet *make_curves(const OutTree *tree, const Course *course,
                              const VenationParams *params, const Relief *relief,
                              const Transform *place, Error *e)
 {
     int64_t pieces = 0;
     for (int64_t i = 0; i < tree->count; i++) {
-        pieces += tree->parent[i] >= 0 && !is_embedded(params, tree->radius[i]);
+        pieces += is_tube(tree, course, params, relief, i);
     }
     CurveSet *curves = curves_new(2 * pieces, pieces, e);
     int64_t last = tree->count > 0 ? tree->birth[tree->count - 1] : 0, point = 0;
     for (int64_t i = 0; curves && i < tree->count; i++) {
-        if (is_embedded(params, tree->radius[i])) {
+        if (!is_tube(tree, course, params, relief, i)) {
             continue;
         }
         const int64_t end[2] = {tree->parent[i], i};
-        for (int k = 0; end[0] >= 0 && k < 2; k++, point++) {
+        for (int k = 0; k < 2; k++, point++) {
             bool tapers = params->smoothing > 0 && course->main[end[0]] == i;
             Vec3 p = course->position[end[k]];
             p.z += relief_at(relief, p);

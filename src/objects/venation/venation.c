@@ -36,6 +36,23 @@ VenationParams venation_params_resolve(const VenationParams *given)
     params.midrib = params.midrib > 0.0f ? params.midrib : 0.008f * length;
     params.vein = params.vein > 0.0f ? params.vein : 0.06f * mesh;
     params.embedded = fminf(params.embedded, 0.5f * params.midrib); // some veins stand out
+    if (!params.blade) {
+        params.wear = params.spots = 0.0f;
+    }
+    return params;
+}
+
+// The id of the root of the leaf with this seed. What is uneven about its blade follows from it.
+static uint64_t root_id(const VenationParams *params, uint64_t seed)
+{
+    return params->petiole > 0.0f ? random_key(seed, STREAM_PETIOLE)
+                                  : veins_root_id(random_key(seed, STREAM_VEINS));
+}
+
+VenationParams venation_params_of(const VenationParams *given, const OutTree *tree)
+{
+    VenationParams params = venation_params_resolve(given);
+    params.outline.key = tree->count > 0 ? tree->id[0] : 0;
     return params;
 }
 
@@ -95,6 +112,7 @@ static OutTree *with_petiole(const OutTree *veins, const VenationParams *params,
 bool venation_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     VenationParams params = venation_params_resolve(given);
+    params.outline.key = root_id(&params, recipe->seed);
     VeinParams grow = vein_params(&params, random_key(recipe->seed, STREAM_VEINS));
     OutTree *veins = veins_grow(&grow, NULL, NULL, recipe->run, e);
     if (veins && params.closed && params.veinlets > 0.0f &&
@@ -121,7 +139,7 @@ bool venation_finish(const void *given, const Recipe *recipe, const Grown *whole
 
 bool venation_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
-    VenationParams params = venation_params_resolve(given);
+    VenationParams params = venation_params_of(given, grown->tree);
     Transform place = transform_compose(params.position, params.rotation, vec3_splat(1.0f));
     Relief relief;
     if (!relief_init(&relief, &params, grown->tree, e)) {
@@ -144,7 +162,8 @@ static double blade_area(const LeafOutline *outline)
 {
     double row = (double)outline->length / AREA_ROWS, sum = 0.0;
     for (int i = 0; i < AREA_ROWS; i++) {
-        sum += 2.0 * row * (double)leaf_half_width(outline, ((float)i + 0.5f) * (float)row);
+        float y = ((float)i + 0.5f) * (float)row;
+        sum += row * (double)(leaf_margin(outline, -1.0f, y) + leaf_margin(outline, 1.0f, y));
     }
     return sum;
 }
@@ -154,7 +173,7 @@ bool venation_measure(const void *given, const Grown *grown, const Recipe *recip
 {
     (void)recipe;
     const OutTree *tree = grown->tree;
-    VenationParams params = venation_params_resolve(given);
+    VenationParams params = venation_params_of(given, tree);
     int64_t pieces, loops;
     double length = 0.0, area = 1e6 * blade_area(&params.outline), none = (double)NAN;
     for (int64_t i = 0; i < tree->count; i++) {

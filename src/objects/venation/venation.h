@@ -10,7 +10,7 @@
 typedef struct VenationParams {
     Vec3 position;       // m, of the blade's base
     Vec3 rotation;       // degrees about x, y, z; without it the leaf is upright, facing +Z
-    LeafOutline outline; // width 0 = half of the length
+    LeafOutline outline; // width 0 = half of the length; its key: see params_of
     bool closed;         // veins with loops; otherwise a tree
     bool marginal;       // the blade grows at its margin; otherwise evenly
     int secondaries;     // on each half, looped near the margin; 0 = grown as all others
@@ -22,6 +22,9 @@ typedef struct VenationParams {
     float petiole;       // m, length of the stalk; 0 = none
     float veinlets;      // share of areoles with a free-ending veinlet; above 0, stubs are cleared
     float relief;        // m: depth of the furrow of the midrib; lesser veins have lesser ones
+    float wave;          // m: height of the waves on the margin
+    float wear;          // 0..1: holes and bites; only of a blade
+    float spots;         // 0..1: dead spots and yellow patches; only of a blade
     float curl;          // degrees that the blade bends back along its length
     float fold;          // degrees that each half folds up about the midrib
     bool blade;          // with the blade between the veins
@@ -33,6 +36,9 @@ VenationParams venation_params_default(void); // closed, 0.1 m
 
 // Fills in numbers that are 0, in proportion to the others.
 VenationParams venation_params_resolve(const VenationParams *given);
+
+// The same of a leaf that has grown, with the key of its outline.
+VenationParams venation_params_of(const VenationParams *given, const OutTree *tree);
 
 // The recipe (see recipe.h). Grows the veins flat in the plane z = 0, the base at the origin: the
 // geometry bends and places them. Nodes below the base are the petiole's. Measures areoles (meshes

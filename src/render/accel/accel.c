@@ -192,7 +192,8 @@ static bool add_piece(Accel *accel, AccelPiece piece, Error *e)
     }
     const Mesh *mesh = own->mesh;
     own->plain = mesh && !own->copied && !mesh->normal && !mesh->uv && !mesh->radius &&
-                 !mesh->birth && !mesh->site && !mesh->foam && !mesh->shore && !mesh->young;
+                 !mesh->birth && !mesh->site && !mesh->foam && !mesh->shore && !mesh->young &&
+                 !mesh->withered;
     return true;
 }
 

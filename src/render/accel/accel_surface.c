@@ -134,6 +134,9 @@ static void add_attributes(const Mesh *mesh, const Corners *c, SurfacePoint *poi
     for (int i = 0; i < 3 && mesh->young; i++) {
         point->young += c->weight[i] * mesh->young[c->vertex[i]];
     }
+    for (int i = 0; i < 3 && mesh->withered; i++) {
+        point->withered += c->weight[i] * mesh->withered[c->vertex[i]];
+    }
     for (int i = 0; i < 3 && mesh->shore; i++) {
         point->shore += c->weight[i] * mesh->shore[c->vertex[i]];
     }

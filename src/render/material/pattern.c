@@ -199,6 +199,9 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
     if (APPLY[m->pattern]) {
         APPLY[m->pattern](m, point, shade);
     }
+    if (point->withered > 0.0f) { // whatever the green was
+        pattern_wither(point, shade);
+    }
     if (m->variation > 0.0f) {
         uint32_t hash = (uint32_t)(point->variation * 16777216.0f);
         float value = noise_unit(hash, 0), hue = noise_unit(hash, 1);
