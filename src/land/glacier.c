@@ -46,11 +46,20 @@ void glacier_free(Glacier *glacier)
     }
 }
 
+// The equation of a sample that exchanges ice with its neighbours.
+typedef struct Equation {
+    int64_t at;
+    double held;                     // m: what it would be without them
+    double west, north, east, south; // shares of their surfaces
+    double all;                      // 1 + these
+} Equation;
+
 typedef struct Flow {
     const Landscape *land;
     double *bed, *top, *gain; // m, m, m / a
     double *along, *down;     // m^2 / a: diffusivity between a sample and the next in its row, in
                               // its column
+    Equation *equation;       // room for those of all samples
 } Flow;
 
 static void flow_clear(Flow *f)
@@ -60,6 +69,7 @@ static void flow_clear(Flow *f)
     free(f->gain);
     free(f->along);
     free(f->down);
+    free(f->equation);
 }
 
 static bool flow_init(Flow *f, const Landscape *land, Error *e)
@@ -70,20 +80,20 @@ static bool flow_init(Flow *f, const Landscape *land, Error *e)
            (f->top = memory_alloc(count, sizeof *f->top, e)) &&
            (f->gain = memory_alloc(count, sizeof *f->gain, e)) &&
            (f->along = memory_alloc_zero(count, sizeof *f->along, e)) &&
-           (f->down = memory_alloc_zero(count, sizeof *f->down, e));
+           (f->down = memory_alloc_zero(count, sizeof *f->down, e)) &&
+           (f->equation = memory_alloc(count + 2, sizeof *f->equation, e));
 }
 
 // Central difference along a row (step 1) or a column; one-sided at the border.
 static double gradient(const Landscape *land, const double *h, int64_t i, int at, int64_t step)
 {
-    int64_t before = at > 0 ? i - step : i, after = at < land->side - 1 ? i + step : i;
-    int64_t cells = (after - before) / step;
-    return (h[after] - h[before]) / ((double)cells * land->cell);
+    int back = at > 0, on = at < land->side - 1;
+    return (h[i + on * step] - h[i - back * step]) / ((double)(back + on) * land->cell);
 }
 
-static double slope_squared(const Landscape *land, const double *h, int64_t i)
+static double slope_squared(const Landscape *land, const double *h, int column, int row)
 {
-    int column = (int)(i % land->side), row = (int)(i / land->side);
+    int64_t i = (int64_t)row * land->side + column;
     double x = gradient(land, h, i, column, 1), z = gradient(land, h, i, row, land->side);
     return x * x + z * z;
 }
@@ -94,41 +104,46 @@ static void find_gain(Flow *f, const GlacierParams *params, int threads)
     const Landscape *land = f->land;
     double limit = params->steepest * params->steepest;
 #pragma omp parallel for schedule(static) num_threads(threads)
-    for (int64_t i = 0; i < landscape_count(land); i++) {
-        double gain = params->gradient * (f->top[i] - params->line);
-        if (gain > 0.0) {
-            double held = 1.0 - slope_squared(land, f->bed, i) / limit;
-            gain = (gain < params->most ? gain : params->most) * (held > 0.0 ? held : 0.0);
+    for (int row = 0; row < land->side; row++) {
+        for (int column = 0; column < land->side; column++) {
+            int64_t i = (int64_t)row * land->side + column;
+            double gain = params->gradient * (f->top[i] - params->line);
+            if (gain > 0.0) {
+                double held = 1.0 - slope_squared(land, f->bed, column, row) / limit;
+                gain = (gain < params->most ? gain : params->most) * (held > 0.0 ? held : 0.0);
+            }
+            f->gain[i] = land->base[i] ? -1e3 : gain;
         }
-        f->gain[i] = land->base[i] ? -1e3 : gain;
     }
-}
-
-// The diffusivity between two samples: creep and sliding of the mean thickness.
-static double between(const Flow *f, int64_t a, int64_t b, double squared)
-{
-    double low = f->bed[a] > f->bed[b] ? f->bed[a] : f->bed[b];
-    double high = f->top[a] > f->top[b] ? f->top[a] : f->top[b];
-    double ice = high - low; // over the sill between them
-    if (ice <= 0.0) {
-        return 0.0;
-    }
-    squared = squared < 0.25 ? squared : 0.25; // steeper ice falls, but is thin
-    return ice * ice * ice * squared * (FLOW * ice * ice + SLIDE);
 }
 
 // The square of the surface's gradient between sample i and the next one `step` on: the difference
-// of both along the step, which central differences would miss, and their mean across it.
-static double edge_slope_squared(const Flow *f, int64_t i, int64_t step)
+// of both along the step, which central differences would miss, and their mean across it. at: the
+// row of a step along a row, the column of one along a column.
+static double edge_slope_squared(const Flow *f, int64_t i, int64_t step, int at)
 {
     const Landscape *land = f->land;
-    bool along = step == 1;
-    int at = along ? (int)(i / land->side) : (int)(i % land->side);
-    int64_t aside = along ? land->side : 1;
+    int64_t aside = step == 1 ? land->side : 1;
     double ahead = (f->top[i + step] - f->top[i]) / land->cell;
     double across =
         0.5 * (gradient(land, f->top, i, at, aside) + gradient(land, f->top, i + step, at, aside));
     return ahead * ahead + across * across;
+}
+
+// The diffusivity between sample i and the next one `step` on: creep and sliding of the mean
+// thickness.
+static double between(const Flow *f, int64_t i, int64_t step, int at)
+{
+    int64_t n = i + step;
+    double low = f->bed[i] > f->bed[n] ? f->bed[i] : f->bed[n];
+    double high = f->top[i] > f->top[n] ? f->top[i] : f->top[n];
+    double ice = high - low; // over the sill between them
+    if (ice <= 0.0) {
+        return 0.0;
+    }
+    double squared = edge_slope_squared(f, i, step, at);
+    squared = squared < 0.25 ? squared : 0.25; // steeper ice falls, but is thin
+    return ice * ice * ice * squared * (FLOW * ice * ice + SLIDE);
 }
 
 // The flow is lagged: half of the last step's diffusivity keeps it from swinging.
@@ -141,38 +156,73 @@ static void find_diffusivity(Flow *f, bool first, int threads)
         for (int column = 0; column < land->side; column++) {
             int64_t i = (int64_t)row * land->side + column;
             if (column + 1 < land->side) {
-                double now = between(f, i, i + 1, edge_slope_squared(f, i, 1));
+                double now = between(f, i, 1, row);
                 f->along[i] = kept * f->along[i] + (1.0 - kept) * now;
             }
             if (row + 1 < land->side) {
-                double now = between(f, i, i + land->side, edge_slope_squared(f, i, land->side));
+                double now = between(f, i, land->side, column);
                 f->down[i] = kept * f->down[i] + (1.0 - kept) * now;
             }
         }
     }
 }
 
-// One projected Gauss-Seidel update of every second sample. old: m, ice before the step.
-static void sweep(Flow *f, const double *old, double years, int color, int threads)
+// Collects the equations of every second sample, in order, and returns how many there are. Samples
+// without neighbours that give or take get their surface at once. old: m, ice before the step.
+static int64_t set_up(Flow *f, const double *old, double years, int color, Equation *equation)
 {
     const Landscape *land = f->land;
     double share = years / (land->cell * land->cell);
     int side = land->side;
-#pragma omp parallel for schedule(static) num_threads(threads)
+    int64_t count = 0;
     for (int row = 0; row < side; row++) {
         for (int column = (row + color) % 2; column < side; column += 2) {
             int64_t i = (int64_t)row * side + column;
             double west = column > 0 ? share * f->along[i - 1] : 0.0;
             double north = row > 0 ? share * f->down[i - side] : 0.0;
             double east = share * f->along[i], south = share * f->down[i];
-            double sum = f->bed[i] + old[i] + years * f->gain[i];
-            sum += west > 0.0 ? west * f->top[i - 1] : 0.0;
-            sum += north > 0.0 ? north * f->top[i - side] : 0.0;
-            sum += east > 0.0 ? east * f->top[i + 1] : 0.0;
-            sum += south > 0.0 ? south * f->top[i + side] : 0.0;
-            double top = sum / (1.0 + west + north + east + south);
-            f->top[i] = top > f->bed[i] ? top : f->bed[i];
+            double held = f->bed[i] + old[i] + years * f->gain[i];
+            double all = 1.0 + west + north + east + south;
+            if (west > 0.0 || north > 0.0 || east > 0.0 || south > 0.0) {
+                equation[count++] = (Equation){i, held, west, north, east, south, all};
+            } else {
+                f->top[i] = held > f->bed[i] ? held : f->bed[i];
+            }
         }
+    }
+    return count;
+}
+
+// One projected Gauss-Seidel update.
+static void solve(Flow *f, const Equation *equation, int64_t count)
+{
+    int64_t side = f->land->side;
+#pragma omp for schedule(static)
+    for (int64_t k = 0; k < count; k++) {
+        const Equation *q = &equation[k];
+        double *here = f->top + q->at, bed = f->bed[q->at];
+        double sum = q->held;
+        sum += q->west > 0.0 ? q->west * here[-1] : 0.0;
+        sum += q->north > 0.0 ? q->north * here[-side] : 0.0;
+        sum += q->east > 0.0 ? q->east * here[1] : 0.0;
+        sum += q->south > 0.0 ? q->south * here[side] : 0.0;
+        double top = sum / q->all;
+        *here = top > bed ? top : bed;
+    }
+}
+
+// Lets the ice flow for some years, implicitly. old: m, ice before the step.
+static void flow(Flow *f, const double *old, double years, int threads)
+{
+    enum { SWEEPS = 16 };
+    Equation *const equation[2] = {f->equation, f->equation + landscape_count(f->land) / 2 + 1};
+    int64_t count[2];
+    for (int color = 0; color < 2; color++) {
+        count[color] = set_up(f, old, years, color, equation[color]);
+    }
+#pragma omp parallel num_threads(threads)
+    for (int k = 0; k < 2 * SWEEPS; k++) {
+        solve(f, equation[k % 2], count[k % 2]);
     }
 }
 
@@ -225,8 +275,12 @@ static void find_slip(Glacier *glacier, const Flow *f, int threads)
     enum { SWEEPS = 30 };
     double *own = f->gain; // no longer needed
     int64_t count = landscape_count(f->land);
+    int side = f->land->side;
     for (int64_t i = 0; i < count; i++) {
-        double ice = glacier->ice[i], squared = slope_squared(f->land, f->top, i);
+        double ice = glacier->ice[i], squared = 0.0;
+        if (ice > 0.0) {
+            squared = slope_squared(f->land, f->top, (int)(i % side), (int)(i / side));
+        }
         squared = squared < STEEPEST * STEEPEST ? squared : STEEPEST * STEEPEST;
         double speed = SLIDE * ice * ice * squared * sqrt(squared);
         own[i] = speed < FASTEST ? speed : FASTEST;
@@ -244,7 +298,6 @@ static void find_slip(Glacier *glacier, const Flow *f, int threads)
 bool glacier_flow(Glacier *glacier, const Landscape *land, const GlacierParams *params,
                   double years, const Run *run, Error *e)
 {
-    enum { SWEEPS = 16 };
     const double LONGEST = 5.0; // a
     Flow f;
     bool done = flow_init(&f, land, e);
@@ -256,9 +309,7 @@ bool glacier_flow(Glacier *glacier, const Landscape *land, const GlacierParams *
         }
         find_gain(&f, params, run->threads);
         find_diffusivity(&f, left == years, run->threads);
-        for (int k = 0; k < 2 * SWEEPS; k++) {
-            sweep(&f, glacier->ice, step, k % 2, run->threads);
-        }
+        flow(&f, glacier->ice, step, run->threads);
         for (int64_t i = 0; i < landscape_count(land); i++) {
             glacier->ice[i] = f.top[i] - f.bed[i];
         }

@@ -56,7 +56,7 @@ static const char bush[] =
     "  - name: bush\n"
     "    tree: {height: 3, leaves: {max_count: 40}, crown: {lobes: 0, growth: {levels: "
     "[{attractors: 60}]}}}\n"
-    "  - {name: floor, ground: {}}\n";
+    "  - {name: floor, ground: {grass_tufts: 90, fallen_leaves: 30}}\n";
 
 static const char net[] = // keeps its attractors, which can be exported
     "objects:\n"

@@ -123,8 +123,8 @@ static void dry_columns_need_no_work(void **state)
     for (int row = 0; row < all->side; row++) {
         all->span[row] = (BraidSpan){0, all->side};
     }
-    flow(b, 1.0, 8.0, true, 2);
-    flow(all, 1.0, 8.0, true, 2);
+    flow(b, 1.0, 8.0, true, 1);
+    flow(all, 1.0, 8.0, true, 1);
     size_t count = (size_t)braid_count(b);
     assert_memory_equal(b->bed, all->bed, sizeof *b->bed * count);
     assert_memory_equal(b->depth, all->depth, sizeof *b->depth * count);
@@ -161,9 +161,9 @@ static void a_bump_moves_as_its_load_tells(void **state)
         double away = (double)row - 40.0;
         b->bed[i] = 0.004 * MEAN * exp(-away * away / 32.0);
     }
-    flow(b, 1.0, 0.005, false, 2);
+    flow(b, 1.0, 0.005, false, 1);
     double from = place_of(b), turnovers = 0.03;
-    flow(b, 1.0, turnovers, true, 2);
+    flow(b, 1.0, turnovers, true, 1);
     double excess = sqrt(1.0 - BRAID_THRESHOLD);
     double growth = 1.5 * excess * 2.0 / MEAN; // of the load with the bed
     int updates = 1 + (int)(turnovers / braid_update_turnovers(b));
@@ -192,8 +192,8 @@ static void narrow_rivers_stay_single_and_wide_ones_braid(void **state)
     Braid *narrow = flume(64, 6, 6.0, 0.3), *wide = flume(64, 56, 6.0, 0.3);
     Braid *rivers[] = {narrow, wide};
     for (int n = 0; n < 2; n++) {
-        flow(rivers[n], 1.0, 90.0, true, 2);
-        flow(rivers[n], 0.4, 3.0, false, 2);
+        flow(rivers[n], 1.0, 90.0, true, 1);
+        flow(rivers[n], 0.4, 3.0, false, 1);
     }
     BraidMeasures one = measured(narrow), many = measured(wide);
     // Bars at the sides of the narrow one cut off a little water here and there.
@@ -300,7 +300,7 @@ static void rivers_are_like_natural_ones_at_any_resolution(void **state)
     for (int n = 0; n < 2; n++) {
         for (uint64_t seed = 1; seed <= 2; seed++) {
             MeasureList list = {0};
-            height_field_free(heights(seed, 128 << n, 2, &list));
+            height_field_free(heights(seed, 128 << n, 1, &list));
             double total = value(&list, "threads"), active = value(&list, "active_threads");
             double bars = value(&list, "bar_ratio");
             if (!(total > 3.0 && total < 10.0 && active < total && bars > 2.5 && bars < 6.0)) {

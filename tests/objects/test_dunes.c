@@ -45,7 +45,7 @@ static void shear_over_waves_has_its_closed_form(void **state)
 {
     (void)state;
     enum { SIDE = 128 };
-    Run run = run_with(2);
+    Run run = run_with(1);
     for (int v = 0; v <= 2; v++) {
         Dunes *dunes = dunes_new(SIDE, SIDE, NULL);
         double kx = TURN * 2 / SIDE, kz = TURN * v / SIDE, k = sqrt(kx * kx + kz * kz), a = 0.1;
@@ -170,10 +170,10 @@ static void barchans_move_downwind_the_slower_the_higher(void **state)
     DuneWind wind = {.x = 1.0, .threshold = 0.3, .saturation = 0.7};
     for (int n = 0; n < 2; n++) {
         Dunes *dunes = heap(SIDE, radius[n]);
-        blow(dunes, &wind, 90.0, 2);
+        blow(dunes, &wind, 90.0, 1);
         double from = place_of(dunes);
         int64_t crest = 0;
-        blow(dunes, &wind, 15.0, 2);
+        blow(dunes, &wind, 15.0, 1);
         double moved = place_of(dunes) - from;
         speed[n] = (moved - floor(moved)) * SIDE / 15.0;
         height[n] = highest(dunes, &crest);
@@ -202,7 +202,7 @@ static void straight_crests_lose_the_steps_of_the_grid(void **state)
 {
     (void)state;
     enum { SIDE = 256, NEAR = 24 };
-    Run run = run_with(2);
+    Run run = run_with(1);
     Dunes *dunes = dunes_new(SIDE, SIDE, NULL), *exact = dunes_new(SIDE, SIDE, NULL);
     double before = 0.0, after = 0.0, profile = 0.0;
     for (int64_t i = 0; i < dunes_count(dunes); i++) {
@@ -252,7 +252,7 @@ static void dunes_have_natural_slopes(void **state)
     (void)state;
     for (uint64_t seed = 1; seed <= 2; seed++) {
         MeasureList list = {0};
-        height_field_free(heights(seed, DUNE_TRANSVERSE, 2, &list));
+        height_field_free(heights(seed, DUNE_TRANSVERSE, 1, &list));
         double slip = measured(&list, "slip_slope"), windward = measured(&list, "windward_slope");
         double height = measured(&list, "dune_height"), length = measured(&list, "dune_length");
         assert_true(slip > 32.0 && slip < 34.5);

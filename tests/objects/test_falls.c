@@ -348,7 +348,7 @@ static void rivers_over_hard_beds_fall_and_gather(void **state)
     params.rivers.water = 0.02f;
     params.terraces = (TerrainTerraceParams){.count = 6, .strength = 1.0f, .sheer = 1.0f};
     Grown grown;
-    HeightField *field = make_heights(&params, 3, 2, NULL, &grown);
+    HeightField *field = make_heights(&params, 3, 1, NULL, &grown);
     const Terrain *terrain = grown.state;
     const OutTree *water = terrain->water;
     int falls = 0;
@@ -787,7 +787,7 @@ static void a_lake_has_one_level(void **state)
     params.water_level = 0.1f;
     Error e = {0};
     Run run = run_default();
-    HeightField *field = make_heights(&params, 3, 2, NULL, NULL);
+    HeightField *field = make_heights(&params, 3, 1, NULL, NULL);
     HeightField *map = height_map(field, &(HeightMap){.kind = HEIGHT_MAP_WATER_DEPTH}, &run, &e);
     assert_non_null(map);
     float low, high;

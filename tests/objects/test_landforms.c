@@ -53,7 +53,7 @@ static void a_canyon_is_as_deep_and_wide_as_asked(void **state)
         params.canyon.width = seed == 3 ? 3500.0f : 5400.0f;
         params.relief = seed == 2 ? 600.0f : 900.0f;
         MeasureList list = {0};
-        height_field_free(heights(&params, seed, 2, &list));
+        height_field_free(heights(&params, seed, 1, &list));
         double depth = (double)params.relief, width = (double)params.canyon.width;
         within(&list, "incision", 0.9 * depth, 1.15 * depth);
         within(&list, "canyon_width", 0.6 * width, 1.35 * width);
@@ -70,7 +70,7 @@ static void mesas_remain(void **state)
     for (uint64_t seed = 1; seed <= 3; seed++) {
         TerrainParams params = landform(TERRAIN_MESAS);
         MeasureList list = {0};
-        HeightField *field = heights(&params, seed, 2, &list);
+        HeightField *field = heights(&params, seed, 1, &list);
         float low, high;
         height_field_range(field, &low, &high);
         assert_true(high - low > 0.85f * 320.0f && high - low < 1.3f * 320.0f);
@@ -109,7 +109,7 @@ static void more_resolution_shows_the_same_land(void **state)
     coarse.canyon.river = fine.canyon.river = 0.0f; // its bed is as exact as the grid
     coarse.resolution = coarse.evolution.cells = fine.evolution.cells = 128;
     fine.resolution = 256;
-    HeightField *a = heights(&coarse, 1, 2, NULL), *b = heights(&fine, 1, 2, NULL);
+    HeightField *a = heights(&coarse, 1, 1, NULL), *b = heights(&fine, 1, 1, NULL);
     for (int row = 0; row < a->rows; row++) {
         for (int column = 0; column < a->columns; column++) {
             float twice = b->height[2 * (int64_t)row * b->columns + 2 * column];

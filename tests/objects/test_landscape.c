@@ -108,7 +108,7 @@ static void faces_stand_at_the_slopes_of_their_beds(void **state)
     }
     LandscapeRates rates = {.repose = 0.6};
     for (int i = 0; i < 2 * CELLS; i++) {
-        step(land, &rates, 1.0, 2);
+        step(land, &rates, 1.0, 1);
     }
     for (int column = 0; column < land->side; column++) {
         double run = strata_run(strata, -150.0) + 5.0 * column;
@@ -166,7 +166,7 @@ static void rubble_rests_at_its_angle(void **state)
     // Without a base there is no water: only slopes act.
     land->base[0] = 1;
     for (int i = 0; i < 3000; i++) {
-        step(land, &rates, 1.0, 2);
+        step(land, &rates, 1.0, 1);
     }
     double steepest = 0.0, highest = 0.0;
     for (int row = 1; row < CELLS; row++) {
@@ -216,7 +216,7 @@ static void steady_streams_keep_the_slope_area_law(double deposition)
                             .repose = 100.0};
     // At last the ways of the water stay, as some would go on switching between two equal ones.
     for (int i = 0; i < 6000; i++) {
-        step_on(land, &rates, 2e3, i < 4000, 2);
+        step_on(land, &rates, 2e3, i < 4000, 1);
     }
     // The load that reaches a sample is the uplift of the area above it; the slope to one of its
     // neighbours must be that of the law.

@@ -189,7 +189,8 @@ static void water_is_level_and_the_bed_is_the_ground(void **state)
 #define LAND(PONDS)                                                                             \
     "seed: 3\nobjects:\n  - name: land\n    seed: 7\n    ground: {" PONDS                       \
     "grass_tufts: 4000, grass_radius: 20, fallen_leaves: 400, fallen_radius: 15, snow: 0.1, "   \
-    "trees: {count: 40, inner: 0, outer: 25, clumping: 0, variants: 1, bare: true}}\n"          \
+    "trees: {count: 40, inner: 0, outer: 25, clumping: 0, variants: 1, bare: true, species: "   \
+    "[{tree: {species: hazel, height: 4, light: {seasons: 8}}}]}}\n"                            \
     "  - name: wood\n    forest: {height: 5, stand_trees: 2, stands: 1, radius: 20, glade: 0, " \
     "ferns: 200, fern_radius: 20, leaves: {max_count: 50}}\n"                                   \
     "  - name: stones\n    scatter: {count: 200, radius: 15, clumping: 0, things: [{stone: "    \
@@ -255,13 +256,13 @@ static void nothing_stands_in_the_water(void **state)
 static void the_bits_are_the_same_on_any_number_of_threads(void **state)
 {
     (void)state;
-    uint64_t hash[3];
-    for (int i = 0; i < 3; i++) {
-        World *world = build(LAND(POND), i + 1);
+    uint64_t hash[2];
+    for (int i = 0; i < 2; i++) {
+        World *world = build(LAND(POND), 1 + 2 * i);
         hash[i] = geometry_hash(&world->geometry);
         world_free(world);
     }
-    assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
+    assert_true(hash[0] == hash[1]);
 }
 
 static void errors_name_the_key(void **state)

@@ -285,8 +285,8 @@ static void every_river_drains_and_nothing_is_a_pit(void **state)
         params.erosion.thermal = k >= 2 ? 1.0f : 0.0f;
         params.terraces.count = k == 3 ? 9 : 0;
         params.terraces.strength = 1.0f;
-        OutTree *tree = grow(&params, 8, 2);
-        HeightField *field = heights(&params, tree, 8, 2);
+        OutTree *tree = grow(&params, 8, 1);
+        HeightField *field = heights(&params, tree, 8, 1);
         Error e = {0};
         MeasureList list = {0};
         assert_true(height_field_measure(field, 0.0, &list, &e));
@@ -306,8 +306,8 @@ static void no_river_hangs_or_runs_on_a_ridge(void **state)
     TerrainParams params = small_terrain();
     params.resolution = 512;
     params.rivers.water = 1e-6f; // no bed
-    OutTree *tree = grow(&params, 4, 2);
-    HeightField *field = heights(&params, tree, 4, 2);
+    OutTree *tree = grow(&params, 4, 1);
+    HeightField *field = heights(&params, tree, 4, 1);
     int64_t nodes = 0, off = 0, ridge = 0;
     float cell = field->cell.x, half = 0.5f * params.size, steep = 0.65f * 1.8f;
     for (int64_t i = 0; i < tree->count; i++) {
@@ -337,10 +337,10 @@ static void more_resolution_shows_the_same_land(void **state)
 {
     (void)state;
     TerrainParams params = small_terrain();
-    OutTree *tree = grow(&params, 2, 2);
-    HeightField *coarse = heights(&params, tree, 2, 2);
+    OutTree *tree = grow(&params, 2, 1);
+    HeightField *coarse = heights(&params, tree, 2, 1);
     params.resolution = 512;
-    HeightField *fine = heights(&params, tree, 2, 2);
+    HeightField *fine = heights(&params, tree, 2, 1);
     float low, high;
     height_field_range(fine, &low, &high);
     double squares = 0.0;
@@ -384,8 +384,8 @@ static void relief_is_what_was_asked(void **state)
     TerrainParams params = small_terrain();
     params.relief = 1500.0f;
     params.noise.iterations = 0;
-    OutTree *tree = grow(&params, 5, 2);
-    HeightField *field = heights(&params, tree, 5, 2);
+    OutTree *tree = grow(&params, 5, 1);
+    HeightField *field = heights(&params, tree, 5, 1);
     float low, high;
     height_field_range(field, &low, &high);
     assert_true(fabsf(high - 1500.0f) < 40.0f && low > -20.0f);
@@ -399,8 +399,8 @@ static void painted_uplift_makes_the_mountains(void **state)
     TerrainParams params = small_terrain();
     UpliftStroke stroke = {{0.2f, 0.2f}, {0.2f, 0.2f}, 0.25f, 4.0f};
     params.uplift = (UpliftParams){.base = 1.0f, .strokes = &stroke, .stroke_count = 1};
-    OutTree *tree = grow(&params, 5, 2);
-    HeightField *field = heights(&params, tree, 5, 2);
+    OutTree *tree = grow(&params, 5, 1);
+    HeightField *field = heights(&params, tree, 5, 1);
     int best = 0;
     for (int i = 0; i < 129 * 129; i++) {
         best = field->height[i] > field->height[best] ? i : best;
@@ -423,8 +423,8 @@ static void an_uplift_picture_makes_the_mountains(void **state)
     const Image image = {.width = 3, .height = 2, .channels = 1, .pixel = pixels};
     assert_true(image_write_grey16(file, &image, NULL, &e));
     params.uplift = (UpliftParams){.base = 1.0f, .image = file};
-    OutTree *tree = grow(&params, 5, 2);
-    HeightField *field = heights(&params, tree, 5, 2);
+    OutTree *tree = grow(&params, 5, 1);
+    HeightField *field = heights(&params, tree, 5, 1);
     unlink(file);
     double sum[4] = {0};
     for (int i = 0; i < 129 * 129; i++) {
@@ -447,8 +447,8 @@ static void basins_are_those_of_nature(void **state)
     for (uint64_t seed = 11; seed < 11 + SEEDS; seed++) {
         TerrainParams params = terrain_params_default();
         params.resolution = 256;
-        OutTree *tree = grow(&params, seed, 2);
-        HeightField *field = heights(&params, tree, seed, 2);
+        OutTree *tree = grow(&params, seed, 1);
+        HeightField *field = heights(&params, tree, seed, 1);
         Error e = {0};
         MeasureList list = {0};
         assert_true(height_field_measure(field, 0.0, &list, &e));
@@ -474,8 +474,8 @@ static void measures_are_those_of_nature(void **state)
     (void)state;
     TerrainParams params = terrain_params_default();
     params.resolution = 256;
-    OutTree *tree = grow(&params, 1, 2);
-    HeightField *field = heights(&params, tree, 1, 2);
+    OutTree *tree = grow(&params, 1, 1);
+    HeightField *field = heights(&params, tree, 1, 1);
     Error e = {0};
     MeasureList list = {0};
     assert_true(height_field_measure(field, 0.0, &list, &e));
@@ -499,11 +499,11 @@ static void erosion_records_what_it_moves(void **state)
     TerrainParams params = small_terrain();
     params.form = TERRAIN_NOISE;
     params.noise.iterations = 6;
-    OutTree *tree = grow(&params, 5, 2);
-    HeightField *before = heights(&params, tree, 5, 2);
+    OutTree *tree = grow(&params, 5, 1);
+    HeightField *before = heights(&params, tree, 5, 1);
     assert_null(before->change);
     params.erosion = (TerrainErosionParams){.streams = 1.0f, .thermal = 2.0f, .talus = 20.0f};
-    HeightField *after = heights(&params, tree, 5, 2);
+    HeightField *after = heights(&params, tree, 5, 1);
     Run run = run_default();
     HeightField *deposit = height_map(after, &(HeightMap){.kind = HEIGHT_MAP_DEPOSIT}, &run, NULL);
     HeightField *wear = height_map(after, &(HeightMap){.kind = HEIGHT_MAP_WEAR}, &run, NULL);
@@ -531,8 +531,8 @@ static void a_canyon_records_what_has_gone(void **state)
     params.form = TERRAIN_CANYON;
     params.size = 3000.0f;
     params.relief = 300.0f;
-    OutTree *tree = grow(&params, 5, 2);
-    HeightField *field = heights(&params, tree, 5, 2);
+    OutTree *tree = grow(&params, 5, 1);
+    HeightField *field = heights(&params, tree, 5, 1);
     Run run = run_default();
     HeightField *deposit = height_map(field, &(HeightMap){.kind = HEIGHT_MAP_DEPOSIT}, &run, NULL);
     HeightField *wear = height_map(field, &(HeightMap){.kind = HEIGHT_MAP_WEAR}, &run, NULL);
@@ -560,10 +560,10 @@ static void erosion_lowers_what_is_too_steep(void **state)
     (void)state;
     TerrainParams params = small_terrain();
     params.relief = 1000.0f;
-    OutTree *tree = grow(&params, 5, 2);
-    HeightField *before = heights(&params, tree, 5, 2);
+    OutTree *tree = grow(&params, 5, 1);
+    HeightField *before = heights(&params, tree, 5, 1);
     params.erosion = (TerrainErosionParams){.thermal = 3.0f, .talus = 30.0f};
-    HeightField *after = heights(&params, tree, 5, 2);
+    HeightField *after = heights(&params, tree, 5, 1);
     int steep[2] = {0, 0};
     HeightField *fields[2] = {before, after};
     for (int k = 0; k < 2; k++) {
@@ -588,7 +588,7 @@ static void land_water_and_forest_become_parts(void **state)
     params.rivers.water = 0.02f;
     params.forest.count = 800;
     params.position = vec3(100.0f, 50.0f, -30.0f);
-    OutTree *tree = grow(&params, 5, 2);
+    OutTree *tree = grow(&params, 5, 1);
     Geometry geometry = {0};
     Error e = {0};
     Run run = run_default();
@@ -742,11 +742,11 @@ static Geometry water_scene(const WaterCase *c, OutTree **tree)
     params.erosion.thermal = c->thermal;
     params.erosion.streams = c->streams;
     params.terraces = (TerrainTerraceParams){c->terraces > 0.0f ? 8 : 0, c->terraces, 0.0f};
-    *tree = grow(&params, 4, 2);
+    *tree = grow(&params, 4, 1);
     Geometry geometry = {0};
     Error e = {0};
     Run run = run_default();
-    run.threads = 2;
+    run.threads = 1;
     Vec3 eye = {0.0f, 2500.0f, 9000.0f};
     Recipe recipe = {.seed = 4, .label = "land", .run = &run};
     Placing placing = placing_in(&geometry, &recipe);

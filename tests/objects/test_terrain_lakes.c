@@ -40,7 +40,7 @@ static void lakes_stand_at_the_spill_level_of_the_finished_land(void **state)
     (void)state;
     TerrainParams params = land_of(TERRAIN_NOISE, 128);
     Grown kept = {0};
-    HeightField *field = make_heights(&params, SEED, 0, NULL, &kept);
+    HeightField *field = make_heights(&params, SEED, 1, NULL, &kept);
     const Lakes *lakes = lakes_of(&kept);
     assert_true(lakes->count > 8);
     Error e = {0};
@@ -104,7 +104,7 @@ static void shores_are_beaches(void **state)
     params.noise.amplitude = 0.4f;
     params.lakes.area = 3e4f;
     Grown kept = {0};
-    HeightField *field = make_heights(&params, SEED, 0, NULL, &kept);
+    HeightField *field = make_heights(&params, SEED, 1, NULL, &kept);
     TerrainParams bare = params;
     bare.lakes.count = 0;
     HeightField *before = make_heights(&bare, SEED, 0, NULL, NULL);
@@ -146,7 +146,7 @@ static void basins_have_the_size_and_depth_of_mountain_lakes(void **state)
     (void)state;
     TerrainParams params = land_of_rivers(512, 300, 0.0f, 4);
     Grown kept = {0};
-    HeightField *field = make_heights(&params, SEED, 0, NULL, &kept);
+    HeightField *field = make_heights(&params, SEED, 1, NULL, &kept);
     const Lakes *lakes = lakes_of(&kept);
     double cell = (double)(field->cell.x * field->cell.y);
     assert_true(lakes->count >= 3 && lakes->count <= 12);
@@ -170,7 +170,7 @@ static void rivers_run_through_lakes(void **state)
     TerrainParams params = land_of_rivers(256, 200, 0.03f, 3);
     params.lakes.basin_area = 60000.0f;
     Grown kept = {0};
-    HeightField *field = make_heights(&params, SEED, 0, NULL, &kept);
+    HeightField *field = make_heights(&params, SEED, 1, NULL, &kept);
     const Terrain *terrain = kept.state;
     const OutTree *water = terrain->water;
     int64_t resting = 0;
@@ -193,12 +193,12 @@ static void silt_takes_the_lakes_volume(void **state)
     (void)state;
     double volume[3];
     for (int k = 0; k < 3; k++) {
-        TerrainParams params = land_of(TERRAIN_ALPS, 256);
+        TerrainParams params = land_of(TERRAIN_ALPS, 128);
         params.size = 8000.0f;
-        params.evolution.cells = 256;
+        params.evolution.cells = 128;
         params.lakes.silt = 0.5f * (float)k;
         Grown kept = {0};
-        HeightField *field = make_heights(&params, SEED, 0, NULL, &kept);
+        HeightField *field = make_heights(&params, SEED, 1, NULL, &kept);
         volume[k] = 0.0;
         for (int i = 0; i < lakes_of(&kept)->count; i++) {
             volume[k] += lakes_of(&kept)->lake[i].volume;
@@ -216,7 +216,7 @@ static void no_lakes_change_nothing(void **state)
     TerrainParams params = land_of(TERRAIN_NOISE, 64);
     params.lakes = (TerrainLakeParams){0};
     Grown kept = {0};
-    HeightField *field = make_heights(&params, SEED, 0, NULL, &kept);
+    HeightField *field = make_heights(&params, SEED, 1, NULL, &kept);
     assert_null(lakes_of(&kept));
     assert_null(field->water);
     height_field_free(field);

@@ -68,7 +68,7 @@ static Grown grow_threads(const TerrainParams *params, int threads, HeightField 
 static HeightField *land_of(const TerrainParams *params)
 {
     HeightField *field;
-    Grown grown = grow_threads(params, 2, &field);
+    Grown grown = grow_threads(params, 1, &field);
     grown_clear(&grown);
     return field;
 }
@@ -298,7 +298,7 @@ static void grown_ridges_are_the_highest(void **state)
     TerrainParams params = plain_terrain(TERRAIN_RIDGES);
     params.resolution = 512;
     HeightField *field;
-    Grown grown = grow_threads(&params, 2, &field);
+    Grown grown = grow_threads(&params, 1, &field);
     const OutTree *tree = grown.tree;
     assert_true(tree->count > 200);
     int64_t covered = 0, crests = 0, flanks = 0;
@@ -339,7 +339,7 @@ static void an_imported_tree_gives_the_land_of_the_grown_one(void **state)
     (void)state;
     TerrainParams params = plain_terrain(TERRAIN_RIDGES);
     HeightField *field;
-    Grown grown = grow_threads(&params, 2, &field);
+    Grown grown = grow_threads(&params, 1, &field);
     write_swc(grown.tree);
     params.ridges.source.file = swc_file;
     HeightField *imported = land_of(&params);
@@ -397,7 +397,7 @@ static void rivers_come_from_files_and_pictures(void **state)
     params.uplift.noise = 0.0f;
     params.rivers.source.file = swc_file;
     HeightField *given;
-    Grown grown = grow_threads(&params, 2, &given);
+    Grown grown = grow_threads(&params, 1, &given);
     params.rivers.source = (TreeSource){.image = image_file, .scale = 1.0f};
     HeightField *painted = land_of(&params);
     HeightField *fields[2] = {given, painted};
@@ -657,7 +657,7 @@ static void the_stages_are_drawn_flat(void **state)
     for (int show = SHOW_LAND; show <= SHOW_TREE; show++) {
         params.show = (TerrainShow)show;
         HeightField *field;
-        Grown grown = grow_threads(&params, 2, &field);
+        Grown grown = grow_threads(&params, 1, &field);
         Geometry geometry = {0};
         Error e = {0};
         Run run = run_default();

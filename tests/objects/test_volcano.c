@@ -47,7 +47,7 @@ static void cones_are_concave(void **state)
     for (uint64_t seed = 1; seed <= 3; seed++) {
         TerrainParams params = cone();
         MeasureList list = {0};
-        HeightField *field = heights(&params, seed, 2, &list, NULL);
+        HeightField *field = heights(&params, seed, 1, &list, NULL);
         float low, high;
         height_field_range(field, &low, &high);
         printf("seed %d: relief %g m\n", (int)seed, (double)(high - low));
@@ -73,7 +73,7 @@ static void a_breach_opens_the_rim(void **state)
     params.volcano.breach = 0.8f;
     params.volcano.breach_azimuth = 130.0f;
     MeasureList list = {0};
-    height_field_free(heights(&params, 1, 2, &list, NULL));
+    height_field_free(heights(&params, 1, 1, &list, NULL));
     within(&list, "rim_sill", -1.0, 0.1);
     measures_clear(&list);
 }
@@ -83,9 +83,9 @@ static void a_caldera_sinks(void **state)
 {
     (void)state;
     TerrainParams params = cone();
-    HeightField *without = heights(&params, 1, 2, NULL, NULL);
+    HeightField *without = heights(&params, 1, 1, NULL, NULL);
     params.volcano.caldera = 1800.0f;
-    HeightField *with = heights(&params, 1, 2, NULL, NULL);
+    HeightField *with = heights(&params, 1, 1, NULL, NULL);
     float x = 1500.0f;
     float floor = height_field_at(with, x, 0.0f), flank = height_field_at(without, x, 0.0f);
     float wall = height_field_at(with, 1.2f * 1800.0f, 0.0f);
@@ -101,9 +101,9 @@ static void age_cuts_gullies_and_ages_lava(void **state)
     TerrainParams params = cone();
     params.volcano.age = 0.0f;
     MeasureList young = {0}, old = {0};
-    height_field_free(heights(&params, 2, 2, &young, NULL));
+    height_field_free(heights(&params, 2, 1, &young, NULL));
     params.volcano.age = 1.0f;
-    height_field_free(heights(&params, 2, 2, &old, NULL));
+    height_field_free(heights(&params, 2, 1, &old, NULL));
     printf("steep share %g young, %g old\n", measured(&young, "cliff_share"),
            measured(&old, "cliff_share"));
     assert_true(measured(&old, "cliff_share") > measured(&young, "cliff_share"));
@@ -134,9 +134,9 @@ static void volume_is_kept(void **state)
     TerrainParams params = cone();
     double quiet[2], active[2];
     params.volcano.flows = 0;
-    height_field_free(heights(&params, 3, 2, NULL, quiet));
+    height_field_free(heights(&params, 3, 1, NULL, quiet));
     params.volcano.flows = 12;
-    height_field_free(heights(&params, 3, 2, NULL, active));
+    height_field_free(heights(&params, 3, 1, NULL, active));
     printf("plain %.12g and %.12g m^3, erupted %.6g and %.6g m^3\n", quiet[0], active[0], quiet[1],
            active[1]);
     assert_true(active[1] > quiet[1] + 5e7);

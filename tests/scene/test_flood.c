@@ -8,7 +8,8 @@
 #define WOODS                                                                                      \
     "  - name: land\n"                                                                             \
     "    ground: {grass_tufts: 900, grass_radius: 30, flat_radius: 60, trees: {count: 12, inner: " \
-    "5, outer: 40, clumping: 0, variants: 1, bare: true}}\n"                                       \
+    "5, outer: 40, clumping: 0, variants: 1, bare: true, species: [{tree: {species: hazel, "       \
+    "height: 4, light: {seasons: 8}}}]}}\n"                                                        \
     "  - name: wood\n"                                                                             \
     "    forest: {height: 6, stand_trees: 3, stands: 1, radius: 30, glade: 0, ferns: 300, "        \
     "fern_radius: 30, leaves: {max_count: 50}}\n"

@@ -46,10 +46,12 @@ static void distant_woods_are_of_three_species(void **state)
 
 static void a_mix_has_shares_materials_and_a_season(void **state)
 {
-    Scene *scene =
-        fixture_read(*state, MEADOW(RING "count: 8, variants: 2, season: 10.2, species: ["
-                                         "{share: 3, tree: {species: beech}, leaf_material: clay}, "
-                                         "{tree: {species: scots_pine, height: 4}}]"));
+    Scene *scene = fixture_read(
+        *state,
+        MEADOW(RING
+               "count: 8, variants: 2, season: 10.2, species: ["
+               "{share: 3, tree: {species: beech, light: {seasons: 10}}, leaf_material: clay}, "
+               "{tree: {species: scots_pine, height: 4, light: {seasons: 10}}}]"));
     const GroveParams *woods = &((const GroundParams *)scene->objects[0].params)->trees;
     World *world = build(scene);
     assert_int_equal(woods->species_count, 2);

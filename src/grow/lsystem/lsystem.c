@@ -6,6 +6,7 @@
 
 #include <ctype.h>
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,6 +45,7 @@ typedef struct Rule {
 typedef struct Grammar {
     Rule *rule; // owned
     int64_t count, capacity;
+    bool replaced[UCHAR_MAX + 1]; // symbols that stand on a rule's left side
     char name[MAX_NAMES + MODULE_MAX_PARAMETERS][NAME_SIZE];
     double value[MAX_NAMES + MODULE_MAX_PARAMETERS];
     int constants;
@@ -147,6 +149,7 @@ static bool read_predecessor(Reader *r, Grammar *grammar, Rule *rule, Error *e)
         return reader_fail(r, e, "'%.1s' cannot stand on a rule's left side; a symbol must", r->at);
     }
     rule->symbol = *r->at++;
+    grammar->replaced[(unsigned char)rule->symbol] = true;
     if (*r->at != '(') {
         return true;
     }
@@ -348,6 +351,9 @@ static bool fits(const Rule *rule, const ModuleString *from, int64_t place, cons
 static const Rule *choose(const Grammar *grammar, const ModuleString *from, int64_t place,
                           double *values, uint64_t key, const Rule **undefined)
 {
+    if (!grammar->replaced[(unsigned char)from->module[place].symbol]) { // most modules, soon done
+        return NULL;
+    }
     double sum = 0.0;
     for (int64_t i = 0; i < grammar->count; i++) {
         const Rule *rule = &grammar->rule[i];
@@ -358,9 +364,12 @@ static const Rule *choose(const Grammar *grammar, const ModuleString *from, int6
             sum += rule->probability;
         }
     }
+    if (!(sum > 0.0)) {
+        return NULL;
+    }
     double draw = sum * (double)random_unit(key);
     const Rule *chosen = NULL;
-    for (int64_t i = 0; sum > 0.0 && i < grammar->count && draw >= 0.0; i++) {
+    for (int64_t i = 0; i < grammar->count && draw >= 0.0; i++) {
         const Rule *rule = &grammar->rule[i];
         if (rule->has_probability && fits(rule, from, place, grammar, values, undefined)) {
             chosen = rule;
