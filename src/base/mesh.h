@@ -23,8 +23,8 @@ typedef struct Mesh {
     float *shore;    // land: m by which it lies lower than MESH_SHORE above the water near
                      // it, 0 = higher or far from water; NULL = there is no water
     float *young;    // leaves: 1 = grown this year, paler, 0 = older; NULL = older everywhere
-    float *withered; // leaves: 0 = green, 0.45 = yellow, 0.7 = brown and moist, 1 = dead and dry;
-                     // NULL = green everywhere
+    float *withered; // leaves: 0 = green, MESH_YELLOW, MESH_BROWN = dead and moist, 1 = dead and
+                     // dry; NULL = green everywhere
     struct Waves *waves;   // of a sea, for what is finer than the mesh; owned; NULL = none
     struct Strata *strata; // land: its beds of rock, in the mesh's space; owned; NULL = none
 } Mesh;
@@ -41,6 +41,10 @@ enum {
     MESH_YOUNG = 128,
     MESH_WITHERED = 256
 };
+
+// Mesh.withered where the green has gone, and where tissue has died.
+#define MESH_YELLOW 0.45f
+#define MESH_BROWN 0.7f
 
 #define MESH_SHORE 8.0f // m above water: how far up shores reach
 

@@ -176,8 +176,13 @@ static void leaves_keep_to_the_foot(void **state)
     }
     assert_true(next > 0 && next < all.part[0].instance_count);
     assert_int_equal(next, low.part[0].instance_count);
+    leaves.arrangement = ARRANGE_ROSETTE; // stays at the end
+    leaves.per_node = 7;
+    Geometry rosette = grow_on(&leaves, (Vec3){1, 0, 0});
+    assert_int_equal(rosette.part[0].instance_count, leaves.per_node);
     geometry_clear(&all);
     geometry_clear(&low);
+    geometry_clear(&rosette);
 }
 
 // Young leaves are at the end, the younger the nearer and the smaller; places stay, and so do

@@ -165,6 +165,7 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
     float until = pieces || tip_only
                       ? 0.0f
                       : 0.2f * foliage->spacing * random_unit(random_key(twig_key, STREAM_OFFSET));
+    bool keeps_low = leaves->foot > 0.0f && !tip_only;
     Vec3 reference = random_direction(random_key(twig_key, STREAM_REFERENCE));
     const float leafy = leafy_length(leaves, twigs, curve);
     float left = leafy; // from point i, m
@@ -174,7 +175,7 @@ static int64_t twig_leaves(Foliage *foliage, const CurveSet *twigs, int64_t curv
         Vec3 along = vec3_normalize(vec3_sub(a, b));
         reference = leaf_reference(leaves, reference, along);
         while (until < length) {
-            bool low = leaves->foot <= 0.0f || left - until <= leaves->foot;
+            bool low = !keeps_low || left - until <= leaves->foot;
             float young = youth_at(leaves, leafy - left + until, leafy, twig_key);
             LeafNode node = {.position = vec3_lerp(a, b, until / length),
                              .along = along,

@@ -63,7 +63,7 @@ static const Key LEAVES_KEYS[] = {
             "needles on the twig itself. 0 = all have the same size."},
     {KEY_OF(LeavesParams, foot, "foot", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Length of a twig's leafy part, from its lower end, that bears leaves, as a bluebell's "
-            "stem does at the ground alone; 0 = all of it."},
+            "stem does at the ground alone. Not of a rosette. 0 = all of it."},
     {KEY_OF(LeavesParams, angle, "angle", KEY_FLOAT), .high = 180, .unit = "degrees",
      .doc = "Angle between a leaf and its twig; of a rosette that of its lowest leaves."},
     {KEY_OF(LeavesParams, droop, "droop", KEY_FLOAT), .high = 1,

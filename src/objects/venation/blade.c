@@ -217,11 +217,11 @@ static bool paint_withered(Relief *relief, Error *e)
     }
     blade_wear_paint(&relief->wear, relief->width, relief->height, relief->withered);
     int64_t size = relief->pale ? (int64_t)relief->width * relief->height : 0;
-    const float dying = 0.45f; // from here on it is more than yellow
     for (int64_t i = 0; i < size; i++) {
         float pale = relief->pale[i], keeps = pale < UNEVEN ? 0.7f * pale / UNEVEN : 0.7f;
         float value = relief->withered[i];
-        relief->withered[i] = value * (1.0f - keeps * (1.0f - smoothstepf(0.0f, dying, value)));
+        relief->withered[i] =
+            value * (1.0f - keeps * (1.0f - smoothstepf(0.0f, MESH_YELLOW, value)));
     }
     return true;
 }

@@ -17,7 +17,6 @@ enum { DRAW_HEIGHT, DRAW_SIDE, DRAW_SIZE, DRAW_RIM, DRAW_NEAR, DRAW_PICK };
 #define THICK 0.2f        // veins of at least this share of the midrib are left
 #define CLEAR 0.003f      // of the length, between a hole and such a vein
 #define PATCH 0.21f       // of the length: wavelength of yellow patches
-#define BROWN 0.7f        // Mesh.withered where tissue is brown and moist
 #define DRY_MARGIN 0.003f // of the length: width of a margin that dries
 
 // ---- places ----
@@ -180,18 +179,18 @@ typedef struct WearCanvas {
 // Beside a hole, at so many widths of its rim: dry, then brown, then yellow.
 static float rim_value(float widths)
 {
-    return widths < 1.0f ? 1.0f - (1.0f - BROWN) * fmaxf(widths, 0.0f)
-                         : BROWN * (1.0f - smoothstepf(1.0f, 2.6f, widths));
+    return widths < 1.0f ? 1.0f - (1.0f - MESH_BROWN) * fmaxf(widths, 0.0f)
+                         : MESH_BROWN * (1.0f - smoothstepf(1.0f, 2.6f, widths));
 }
 
 // In a spot and its halo. Specks are brown, larger ones dry out in the middle.
 static float spot_value(const WornPlace *spot, float depth, float length)
 {
-    float top =
-        lerpf(BROWN + 0.02f, 1.0f, smoothstepf(0.002f * length, 0.007f * length, spot->radius));
+    float top = lerpf(MESH_BROWN + 0.02f, 1.0f,
+                      smoothstepf(0.002f * length, 0.007f * length, spot->radius));
     float inside = depth / spot->radius;
     if (inside > 0.0f) {
-        return lerpf(BROWN, top, smoothstepf(0.1f, 0.45f, inside));
+        return lerpf(MESH_BROWN, top, smoothstepf(0.1f, 0.45f, inside));
     }
     return 0.6f * (1.0f - smoothstepf(0.0f, 1.0f, -depth / spot->rim));
 }

@@ -1,6 +1,7 @@
 // The colour of a leaf by its season. Chlorophyll goes from the edge inward and last along the
 // veins; what is left is the autumn colour, and brown where the edge dries first. A young leaf is
 // thin and has little chlorophyll.
+#include "base/mesh.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_noise.h"
 
@@ -52,8 +53,8 @@ void pattern_wither(const SurfacePoint *point, PatternShade *shade)
 {
     const Vec3 brown = vec3(0.055f, 0.030f, 0.014f), brown_through = vec3(0.045f, 0.022f, 0.006f);
     const Vec3 straw = vec3(0.200f, 0.130f, 0.065f), straw_through = vec3(0.170f, 0.085f, 0.028f);
-    float yellow = smoothstepf(0.0f, 0.45f, point->withered);
-    float dead = smoothstepf(0.45f, 0.70f, point->withered);
+    float yellow = smoothstepf(0.0f, MESH_YELLOW, point->withered);
+    float dead = smoothstepf(MESH_YELLOW, MESH_BROWN, point->withered);
     float dry = smoothstepf(0.75f, 1.0f, point->withered);
     Vec3 c = shade->color, t = shade->transmittance;
     c = vec3_lerp(c, vec3(fmaxf(c.x, 1.05f * c.y), 1.1f * c.y, 0.8f * c.z), yellow);
