@@ -4,7 +4,7 @@
 # programs that tests hold our files against, as COMMAND:PACKAGE. FUZZ: only for fuzz. CLUSTER: only for
 # test-cluster. SAME_BITS: only for same-bits-builds.
 BUILD_PACKAGES = gcc g++ libc6-dev pkg-config libembree-dev libosd-dev libopenvdb-dev libboost-dev libopenimageio-dev \
-                 libopenexr-dev zlib1g-dev libopencolorio-dev libassimp-dev libyaml-dev libtbb-dev libnlopt-dev libseccomp-dev \
+                 libopenexr-dev libpng-dev libjpeg-dev libopencolorio-dev libassimp-dev libyaml-dev libtbb-dev libnlopt-dev libseccomp-dev \
                  libcmocka-dev libgdal-dev ffmpeg
 CHECK_PACKAGES = clang-format clang-tidy cppcheck libomp-14-dev
 FUZZ_PACKAGES  = clang libclang-rt-14-dev
@@ -71,9 +71,11 @@ $(OBJ)/shape/vdb_%.cpp.o: CXXFLAGS += $(if $(filter fuzz,$(CONFIG)),-fno-sanitiz
 
 # What needs libraries that take long to load (OpenImageIO brings 240 others) lies in plug-ins, ramify-NAME.so, which are
 # loaded when first used (base/plugin.h). Their sources and libraries:
-PLUGINS      := oiio vdb ocio gdal
-PLUGIN_oiio  := image/decode.cpp image/encode.cpp image/encode_bytes.cpp image/encode_check.cpp image/encode_exr.cpp image/png_text.cpp
-LDLIBS_oiio  := -lOpenImageIO -lOpenImageIO_Util -lOpenEXR -lImath -lz -lstdc++ -lm
+PLUGINS      := oiio write vdb ocio gdal
+PLUGIN_oiio  := image/decode.cpp
+LDLIBS_oiio  := -lOpenImageIO -lOpenImageIO_Util -lstdc++ -lm
+PLUGIN_write := image/encode.c image/encode_png.c image/encode_jpeg.c image/encode_exr.cpp image/encoded.c
+LDLIBS_write := -lpng -ljpeg -lOpenEXR -lImath -lstdc++ -lm
 PLUGIN_vdb   := shape/vdb_level_set.cpp shape/vdb_grid_file.cpp shape/vdb_read.cpp shape/spare_memory.cpp
 LDLIBS_vdb   := -lopenvdb -lImath -ltbb -lstdc++ -lm
 PLUGIN_ocio  := image/ocio_view.cpp

@@ -12,6 +12,7 @@
 #include <vector>
 
 extern "C" {
+#include "image/codec.h"
 #include "image/decode.h"
 }
 
@@ -133,7 +134,7 @@ bool check_bytes(const DecodeHeader *h, Error *e)
                      (double)DECODE_MAX_BYTES * 1e-9);
 }
 
-// JPEG files store all pairs as lines of one text: see add_metadata in encode.cpp.
+// JPEG files store all pairs as lines of one text: see image/encode_jpeg.c.
 std::string find_text(const OIIO::ImageSpec &spec, const std::string &key)
 {
     std::string value = spec.get_string_attribute(key);
@@ -296,6 +297,19 @@ bool decode(const DecodeJob *job, ChildOutput *output, Error *e)
            hand_back(input.get(), spec, job, channels, (TexelType)header.type, output, e);
 }
 
+// When it runs out of memory while it lists its formats, OpenImageIO waits for itself for ever. So
+// it lists them when this is loaded, which is tried only with enough room (base/plugin.c).
+struct Formats {
+    Formats()
+    {
+        try {
+            OIIO::attribute("threads", 1);
+            OIIO::get_string_attribute("format_list");
+        } catch (const std::exception &) { // it tries again when it needs them
+        }
+    }
+} const formats;
+
 } // namespace
 
 extern "C" bool decode_picture(const void *data, ChildOutput *output, Error *e)
@@ -310,3 +324,6 @@ extern "C" bool decode_picture(const void *data, ChildOutput *output, Error *e)
         return error_set(e, ERROR_INPUT, "its reader failed for no known reason");
     }
 }
+
+extern "C" const ImageReader image_reader_oiio;
+const ImageReader image_reader_oiio = {sizeof(ImageReader), decode_picture};

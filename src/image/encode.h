@@ -1,5 +1,5 @@
-// The child's side of image/write.c: pictures are encoded in a process of their own, since the
-// libraries for it end the program, wait for ever or leave lines out when memory runs out.
+// What image/write.c has a child process encode: the libraries for it may crash, wait for ever or
+// leave lines out when memory runs out.
 #ifndef RAMIFY_IMAGE_ENCODE_H
 #define RAMIFY_IMAGE_ENCODE_H
 
@@ -23,9 +23,5 @@ typedef struct EncodeJob {
     const int *window; // ENCODE_EXR: left, top, width and height; NULL = all
     const char *metadata;
 } EncodeJob;
-
-// A ChildTask; data: an EncodeJob. The result is a whole file, which has been decoded again and
-// compared with the picture.
-bool encode_picture(const void *data, ChildOutput *output, Error *e);
 
 #endif

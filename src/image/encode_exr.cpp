@@ -1,7 +1,4 @@
-// Writes EXR pictures by OpenEXR itself: planes are read where they lie, and OpenImageIO would keep
-// each text of the metadata until the process ends.
-#include "image/encode_exr.h"
-
+// Writes EXR pictures by OpenEXR: planes are read where they lie.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -14,14 +11,18 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
+
+extern "C" {
+#include "image/encode_exr.h"
+}
 
 namespace
 {
-
-using Bytes = std::vector<unsigned char>;
 
 const int ROWS_AT_A_TIME = 64;
 
@@ -46,60 +47,64 @@ class ExrThreads
 class ExrOutput : public Imf::OStream
 {
   public:
-    explicit ExrOutput(Bytes &bytes) : OStream("memory.exr"), all(bytes)
+    explicit ExrOutput(Encoded *encoded) : OStream("memory.exr"), file(encoded)
     {
     }
     void write(const char source[], int count) override
     {
-        size_t end = at + size_t(count);
-        if (end > all.size()) {
-            all.resize(end);
+        int64_t end = at + count;
+        if (end > file->size) {
+            if (!encoded_reserve(file, size_t(end - file->size), nullptr)) {
+                throw std::bad_alloc();
+            }
+            std::memset(file->bytes + file->size, 0, size_t(end - file->size));
+            file->size = end;
         }
-        std::memcpy(all.data() + at, source, size_t(count));
+        std::memcpy(file->bytes + at, source, size_t(count));
         at = end;
     }
     uint64_t tellp() override
     {
-        return at;
+        return uint64_t(at);
     }
     void seekp(uint64_t to) override
     {
-        at = size_t(to);
+        at = int64_t(to);
     }
 
   private:
-    Bytes &all;
-    size_t at = 0;
+    Encoded *file;
+    int64_t at = 0;
 };
 
 // An EXR file in memory, for OpenEXR to look into.
 class ExrInput : public Imf::IStream
 {
   public:
-    explicit ExrInput(const Bytes &bytes) : IStream("memory.exr"), all(bytes)
+    explicit ExrInput(const Encoded *encoded) : IStream("memory.exr"), file(encoded)
     {
     }
     bool read(char target[], int count) override
     {
-        if (count < 0 || size_t(count) > all.size() - at) {
+        if (count < 0 || count > file->size - at) {
             throw std::runtime_error("the end is missing");
         }
-        std::memcpy(target, all.data() + at, size_t(count));
-        at += size_t(count);
-        return at < all.size();
+        std::memcpy(target, file->bytes + at, size_t(count));
+        at += count;
+        return at < file->size;
     }
     uint64_t tellg() override
     {
-        return at;
+        return uint64_t(at);
     }
     void seekg(uint64_t to) override
     {
-        at = std::min(size_t(to), all.size());
+        at = std::min(int64_t(to), file->size);
     }
 
   private:
-    const Bytes &all;
-    size_t at = 0;
+    const Encoded *file;
+    int64_t at = 0;
 };
 
 bool check_layers(const ImageLayer *layers, int count, Error *e)
@@ -159,13 +164,13 @@ void add_channels(const EncodeJob &job, Imf::Header &header, Imf::FrameBuffer &f
     }
 }
 
-void write_lines(const EncodeJob &job, Bytes &bytes)
+void write_lines(const EncodeJob &job, Encoded *file)
 {
     Imf::Header header = make_header(job.layers[0].image, job.window, job.metadata);
     Imf::FrameBuffer frame;
     add_channels(job, header, frame);
     const Imath::Box2i &data = header.dataWindow();
-    ExrOutput stream(bytes);
+    ExrOutput stream(file);
     Imf::OutputFile output(stream, header);
     output.setFrameBuffer(frame);
     output.writePixels(data.max.y - data.min.y + 1);
@@ -208,9 +213,9 @@ bool same_rows(const EncodeJob &job, Planes &planes, int left, int first, int ro
 
 // Lines of pixels that could not be written for lack of memory are no error to OpenEXR: they are
 // left out. So all are read again and compared bit by bit, some at a time.
-bool holds_all(const EncodeJob &job, const Bytes &bytes)
+bool holds_all(const EncodeJob &job, const Encoded *file)
 {
-    ExrInput stream(bytes);
+    ExrInput stream(file);
     Imf::InputFile input(stream);
     const Imath::Box2i &data = input.header().dataWindow();
     size_t channels = 0;
@@ -244,13 +249,21 @@ bool holds_all(const EncodeJob &job, const Bytes &bytes)
 
 } // namespace
 
-bool encode_exr(const EncodeJob &job, Bytes &bytes, Error *e)
+extern "C" bool encode_exr(const EncodeJob *job, Encoded *file, Error *e)
 {
-    if (!check_layers(job.layers, job.count, e)) {
+    if (!check_layers(job->layers, job->count, e)) {
         return false;
     }
-    ExrThreads threads;
-    write_lines(job, bytes);
-    return holds_all(job, bytes) ||
-           error_set(e, ERROR_MEMORY, "what was written is not complete; out of memory");
+    try {
+        ExrThreads threads;
+        write_lines(*job, file);
+        return holds_all(*job, file) ||
+               error_set(e, ERROR_MEMORY, "what was written is not complete; out of memory");
+    } catch (const std::bad_alloc &) {
+        return error_set(e, ERROR_MEMORY, "out of memory");
+    } catch (const std::exception &failure) {
+        return error_set(e, ERROR_INTERNAL, "%s", failure.what());
+    } catch (...) {
+        return error_set(e, ERROR_INTERNAL, "its writer failed for no known reason");
+    }
 }

@@ -1,7 +1,8 @@
-// Reads and writes pictures through OpenImageIO. Files are read in a child process with limits
-// (base/child.h): 2^27 pixels (16384 x 8192) and 2 GB of the requested channels, checked before any
-// pixel is decoded; ERROR_INPUT names the file, its size and the limit. Files are written to a
-// temporary name and renamed: a failure leaves no partial file and an old one unchanged.
+// Reads pictures of any format through OpenImageIO and writes PNG, JPEG and EXR. Files are read in
+// a child process with limits (base/child.h): 2^27 pixels (16384 x 8192) and 2 GB of the requested
+// channels, checked before any pixel is decoded; ERROR_INPUT names the file, its size and the
+// limit. Files are written to a temporary name and renamed: a failure leaves no partial file and an
+// old one unchanged.
 #ifndef RAMIFY_IMAGE_IMAGE_H
 #define RAMIFY_IMAGE_IMAGE_H
 
@@ -13,7 +14,7 @@
 
 // Reading stops with ERROR_CANCELLED when its run is cancelled; run NULL = it cannot be.
 
-// Loads OpenImageIO (base/plugin.h), which the first function that reads or writes would do:
+// Loads what writes pictures (base/plugin.h), which the first function that writes would do:
 // whether it can is better known before an image is made than after. Errors: see plugin_table.
 bool image_files_check(Error *e);
 

@@ -63,11 +63,11 @@ static bool start(const DecodeJob *job, DecodeHeader *header, ChildOutput *outpu
                   Error *e)
 {
     *output = (ChildOutput){.file = -1};
-    const ImageCodec *codec = job->bytes || check_file(job->file, e) ? image_codec(e) : NULL;
-    if (!codec) {
+    const ImageReader *reader = job->bytes || check_file(job->file, e) ? image_reader(e) : NULL;
+    if (!reader) {
         return fail(job, e);
     }
-    const ChildJob child = {.task = codec->decode,
+    const ChildJob child = {.task = reader->decode,
                             .data = job,
                             .file = job->file,
                             .wanted = WANTED,

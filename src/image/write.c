@@ -32,11 +32,11 @@ static bool run(const ChildJob *child, ChildOutput *output, Error *e)
 // The encoded file: *bytes (free() it) of *size.
 static bool encode(const EncodeJob *job, unsigned char **bytes, size_t *size, Error *e)
 {
-    const ImageCodec *codec = image_codec(e);
-    if (!codec) {
+    const ImageWriter *writer = image_writer(e);
+    if (!writer) {
         return false;
     }
-    const ChildJob child = {.task = codec->encode,
+    const ChildJob child = {.task = writer->encode,
                             .data = job,
                             .worker = "writer",
                             .wanted = "a smaller picture or more memory",
