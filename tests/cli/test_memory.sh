@@ -77,14 +77,14 @@ if [ "$sanitized" = no ]; then
     check surface_export 0 "$RAMIFY" export surface.yaml -o surface.stl -q
     tells mesh 'mesh: {file: surface.stl}' 160
     estimates many 'ground: {grass_tufts: 150000}'
-    estimates large 'shape: {envelope: [{shape: sphere}]}' --size 1200x800 --samples 1
+    estimates large 'shape: {envelope: [{shape: sphere}]}' --size 1200x800 --samples 1 --set film.denoise=true
     estimates quarter 'tree: {leaves: {max_count: 50000}}' --size 640x400 --crop 0,0,0.5,0.5 --samples 4
     # What counts do not rule out is refused once it is built, before the first path.
     scene built 'ground: {grass_tufts: 150000}'
-    check built_limit 2 "$RAMIFY" render built.yaml -o built.png -q --memory 250M
+    check built_limit 2 "$RAMIFY" render built.yaml -o built.png -q --memory 150M
     matches built_limit_key err "^built.yaml:6:.*grass_tufts of object 'a'"
     yes built_limit_makes_nothing [ ! -e built.png -a ! -e built.exr ]
-    check built_estimate 2 "$RAMIFY" info built.yaml --estimate -q --memory 250M
+    check built_estimate 2 "$RAMIFY" info built.yaml --estimate -q --memory 150M
 fi
 limits stalks grass_tufts 2G 'ground: {grass_tufts: 100000000}'
 limits edges sides 1.5G 'frost: {sides: 20000000}'

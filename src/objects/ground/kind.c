@@ -22,7 +22,8 @@ static const char *further_material(const void *params, int index)
 
 static void needs(const void *params, Needs *needs)
 {
-    enum { TUFT_FACES = 88, LEAF_FACES = 25, TREE_BYTES = 40000000, PARTS = 10 };
+    // A tuft has 66 faces close by and 16 in the distance.
+    enum { TUFT_FACES = 40, LEAF_FACES = 25, TREE_BYTES = 40000000, PARTS = 10 };
     const GroundParams *ground = params;
     needs_add(needs, "grass_tufts", (double)ground->grass_tufts, // about half are rejected
               0.5 * (sizeof(Transform) + sizeof(float)));
