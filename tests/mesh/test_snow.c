@@ -1,6 +1,7 @@
 // Settled snow: as deep as it should be on a level branch, none on steep or bare ones, closed
 // pillows on boughs that face outward and bridge gaps, less of it below what catches it.
 #include "base/exact_math.h"
+#include "base/random.h"
 #include "mesh/snow/snow_bed.h"
 #include "objects/common/snow_fall.h"
 #include "testing.h"
@@ -320,6 +321,27 @@ static void a_level_sheet_bears_its_depth(void **state)
     mesh_free(mesh);
 }
 
+// Needles here and there, high up, without bridges: every rim stays near the needles about it.
+static void scattered_needles_bear_no_spikes(void **state)
+{
+    (void)state;
+    const float high = 12.0f, depth = 0.08f;
+    for (uint64_t bough = 0; bough < 8; bough++) {
+        Bearers on = {0};
+        for (uint64_t i = 0; i < 300; i++) {
+            uint64_t key = random_key(random_key(1, bough), i);
+            float x = random_range(random_key(key, 1), -0.5f, 0.5f);
+            float z = random_range(random_key(key, 2), -0.5f, 0.5f);
+            add_sheet(&on, vec3(x, high + 0.1f * x, z), 0.03f, 0.02f, 0.0f);
+        }
+        Mesh *mesh = pillows(on, calm(depth, 0.2f, 0.0f), &OPEN);
+        Aabb box = mesh_bounds(mesh);
+        assert_true(mesh->face_count > 0);
+        assert_true(box.low.y > high - 0.2f && box.high.y < high + 0.3f);
+        mesh_free(mesh);
+    }
+}
+
 static void steep_and_sheltered_boughs_bear_none(void **state)
 {
     (void)state;
@@ -368,6 +390,7 @@ int main(void)
         cmocka_unit_test(deeper_snow_has_more_volume),
         cmocka_unit_test(snow_spans_what_it_can_bridge),
         cmocka_unit_test(a_level_sheet_bears_its_depth),
+        cmocka_unit_test(scattered_needles_bear_no_spikes),
         cmocka_unit_test(steep_and_sheltered_boughs_bear_none),
         cmocka_unit_test(layers_above_keep_snow_off),
     };

@@ -248,11 +248,26 @@ static void set_surface(SnowBed *bed, const SnowParams *params, const SnowReach 
         float level = 1.0f / sqrtf(1.0f + slope.x * slope.x + slope.z * slope.z);
         Vec3 p = vec3(bed->low_x + (float)x * bed->cell, slope.height,
                       bed->low_z + (float)z * bed->cell);
-        bed->height[i] = slope.height;
+        bed->height[i] = slope.none ? NAN : slope.height;
         bed->share[i] = slope.none ? 0.0f
                                    : unevenness(params, p, seed) * snow_stays(params, level) *
                                          reach->share(reach->user, p);
         inside[i] = inside[i] && bed->share[i] >= SHARE_LEAST;
+    }
+}
+
+// Rims reach out over points that no bearer is near: the surface goes on there as it is beside
+// them.
+static void extend_surface(SnowBed *bed)
+{
+    enum { REACH = 3 }; // points, as far as overhang and rounding move the outline
+    const int64_t beside[4] = {-1, 1, -bed->across, bed->across};
+    for (int turn = 0; turn < REACH; turn++) {
+        for (int64_t i = bed->across; i < point_count(bed) - bed->across; i++) {
+            for (int n = 0; n < 4 && isnan(bed->height[i]); n++) {
+                bed->height[i] = bed->height[i + beside[n]];
+            }
+        }
     }
 }
 
@@ -322,6 +337,7 @@ static bool shape(SnowBed *bed, const SnowBearer *bearer, int64_t count, const S
         return false;
     }
     set_surface(bed, params, reach, seed, room->inside, room->top);
+    extend_surface(bed);
     drop_specks(bed, room->inside, room->stack, room->seen);
     filter(bed, bed->share, mean_of, 1, room->line);
     return set_outline(bed, room->inside, OVERHANG * params->depth, room, e);

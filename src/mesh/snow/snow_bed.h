@@ -11,7 +11,7 @@ typedef struct SnowBed {
     int across, along; // points along x and z
     float cell;        // m, between points
     float low_x, low_z;
-    float *height;  // m: of the surface that bears the snow; 0 far from all bearers
+    float *height;  // m: of the surface that bears the snow; NAN far from all bearers
     float *outline; // m: distance to the outline, > 0 inside
     float *share;   // of the full depth, where inside
     float *highest; // m: bearer near the point; bearers SNOW_STEP below it do not belong to the bed
