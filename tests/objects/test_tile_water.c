@@ -33,17 +33,18 @@ static const Terrain *terrain_of(const Made *m)
     return m->grown.state;
 }
 
-// eye: in the terrain's own space.
-static void make(Made *m, const TerrainParams *params, Vec3 eye, int threads)
+// eye: in the terrain's own space; NULL = none.
+static void make_seen(Made *m, const TerrainParams *params, const Vec3 *eye, int threads)
 {
     Error e = {0};
-    *m = (Made){.params = *params, .run = run_default(), .eye = eye};
+    Vec3 from = eye ? *eye : vec3_splat(0.0f);
+    *m = (Made){.params = *params, .run = run_default(), .eye = from};
     m->run.threads = threads;
     Recipe recipe = {.seed = SEED, .label = "land", .run = &m->run};
     assert_true(kind_grow(&kind_terrain, &m->params, &recipe, 1.0f, NULL, &m->grown, &e));
     Placing placing = placing_in(&m->geometry, &recipe);
-    Vec3 there = vec3_add(eye, params->position);
-    placing.around.eye = &there;
+    Vec3 there = vec3_add(from, params->position);
+    placing.around.eye = eye ? &there : NULL;
     if (!terrain_geometry(&m->params, &m->grown, &placing, &e)) {
         fail_msg("%s", e.message);
     }
@@ -51,7 +52,7 @@ static void make(Made *m, const TerrainParams *params, Vec3 eye, int threads)
     m->grid = (TileGrid){
         .count = TILES.count, .cells = TILES.cells, .detail = TILES.detail, .seed = SEED};
     bool ends = terrain_tiles_end(params);
-    m->view = (TileView){.eye = &m->eye,
+    m->view = (TileView){.eye = eye ? &m->eye : NULL,
                          .cell = 8.0f * params->mesh_error,
                          .beyond = ends ? 0 : params->beyond,
                          .seam = ends,
@@ -60,6 +61,11 @@ static void make(Made *m, const TerrainParams *params, Vec3 eye, int threads)
     m->view.shaping = &m->water.shaping;
     m->mesh = tile_mesh_new(m->field, &m->grid, &m->view, &m->places, &m->run, &e);
     assert_non_null(m->mesh);
+}
+
+static void make(Made *m, const TerrainParams *params, Vec3 eye, int threads)
+{
+    make_seen(m, params, &eye, threads);
 }
 
 static void drop(Made *m)
@@ -313,28 +319,168 @@ static void rivers_run_in_drawn_beds(void **state)
     drop(&m);
 }
 
-// Water that falls does so in the square alone, over the drawn land and as far down as it.
+static TerrainParams land_of_falls(void)
+{
+    TerrainParams params = land_of_rivers();
+    params.rivers.fall_height = 2.0f;
+    params.rivers.fall_slope = 0.4f;
+    return params;
+}
+
+// Falling water, with its highest vertex.
+typedef struct Fall {
+    const Mesh *mesh;
+    Vec3 top;
+} Fall;
+
+enum { MOST_FALLS = 256 };
+
+static Vec3 top_of(const Mesh *mesh)
+{
+    Vec3 top = mesh->position[0];
+    for (int64_t i = 1; i < mesh->vertex_count; i++) {
+        top = mesh->position[i].y > top.y ? mesh->position[i] : top;
+    }
+    return top;
+}
+
+// The parts of falling water, which reach less far than a network of rivers.
+static int list_falls(const Made *m, Fall fall[MOST_FALLS])
+{
+    int count = 0;
+    for (int64_t k = 1; k < m->geometry.count; k++) {
+        const Part *part = &m->geometry.part[k];
+        Aabb box = mesh_bounds(part->mesh);
+        if (part->is_water && box.high.x - box.low.x < 0.1f * m->params.size) {
+            assert_true(count < MOST_FALLS);
+            fall[count++] = (Fall){part->mesh, top_of(part->mesh)};
+        }
+    }
+    return count;
+}
+
+// Where the scene has a place of the square again, on a flat Earth: mirrored by odd columns and
+// rows.
+static Vec3 place_in_copy(const Made *m, Vec3 own, int column, int row)
+{
+    float x = column % 2 == 0 ? own.x : -own.x, z = row % 2 == 0 ? own.z : -own.z;
+    Vec3 there = vec3((float)column * m->params.size + x, own.y, (float)row * m->params.size + z);
+    return vec3_add(there, m->params.position);
+}
+
+// The fall whose highest vertex is within reach (m) of a place; NULL = none.
+static const Mesh *fall_at(const Fall *fall, int count, Vec3 place, float reach)
+{
+    for (int k = 0; k < count; k++) {
+        if (vec3_distance(fall[k].top, place) < reach) {
+            return fall[k].mesh;
+        }
+    }
+    return NULL;
+}
+
+// Water falls over the drawn land and as far down as it, in the square and in its copies.
 static void water_falls_over_drawn_land(void **state)
 {
     (void)state;
     Made m;
-    TerrainParams params = land_of_rivers();
-    params.rivers.fall_height = 2.0f;
-    params.rivers.fall_slope = 0.4f;
+    TerrainParams params = land_of_falls();
     make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
     check_land(&m);
-    int64_t falls = 0, vertices = 0, under = 0;
-    for (int64_t k = 2; k + 8 < m.geometry.count; k++, falls++) {
-        const Mesh *mesh = m.geometry.part[k].mesh;
-        for (int64_t i = 0; i < mesh->vertex_count; i++, vertices++) {
-            Vec3 p = mesh->position[i], own = vec3_sub(p, params.position);
-            assert_true(fabsf(own.x) < 2001.0f && fabsf(own.z) < 2001.0f);
+    Fall fall[MOST_FALLS];
+    int count = list_falls(&m, fall), beyond = 0;
+    int64_t vertices = 0, under = 0;
+    for (int k = 0; k < count; k++) {
+        Vec3 own = vec3_sub(fall[k].top, params.position);
+        beyond += fmaxf(fabsf(own.x), fabsf(own.z)) > 2001.0f;
+        for (int64_t i = 0; i < fall[k].mesh->vertex_count; i++, vertices++) {
+            Vec3 p = fall[k].mesh->position[i];
             under += p.y < land_below(&m, p) - 0.5f;
         }
     }
-    print_message("%d falls: %d of %d vertices under the land\n", (int)falls, (int)under,
-                  (int)vertices);
-    assert_true(falls > 3 && under < vertices / 50);
+    print_message("%d falls, %d beyond: %d of %d vertices under the land\n", count, beyond,
+                  (int)under, (int)vertices);
+    assert_true(count - beyond > 3 && beyond > 25 && under < vertices / 50);
+    drop(&m);
+}
+
+// Each river that drops in the square drops in each copy, too, unless the fall is too small to be
+// seen from the eye; the farther, the coarser.
+static void rivers_drop_in_copies(void **state)
+{
+    (void)state;
+    Made m;
+    TerrainParams params = land_of_falls();
+    Vec3 eye = vec3(300.0f, 200.0f, 500.0f);
+    make(&m, &params, eye, 2);
+    const Terrain *terrain = terrain_of(&m);
+    const OutTree *water = terrain->water;
+    Fall fall[MOST_FALLS];
+    int count = list_falls(&m, fall), seen = 0, unseen = 0, coarser = 0;
+    for (int64_t i = 0; i < water->count; i++) {
+        float high = terrain->drop[i], reach = 2.0f * m.field->cell.x + 2.0f * water->radius[i];
+        const Mesh *own = high > 0.0f
+                              ? fall_at(fall, count, vec3_add(water->position[i], params.position), reach)
+                              : NULL;
+        assert_true(own || high <= 0.0f);
+        for (int k = 0; own && k < 9; k++) {
+            Vec3 lip = place_in_copy(&m, water->position[i], k % 3 - 1, k / 3 - 1);
+            float away = vec3_distance(lip, vec3_add(eye, params.position));
+            const Mesh *there = fall_at(fall, count, lip, reach);
+            assert_true(there ? high > 0.00039f * away : high < 0.00041f * away);
+            seen += there != NULL;
+            unseen += !there;
+            coarser += there && 2 * there->vertex_count < own->vertex_count;
+        }
+    }
+    print_message("%d falls are drawn, %d of them much coarser, %d are not\n", seen, coarser,
+                  unseen);
+    assert_true(seen > 30 && coarser > 10);
+    drop(&m);
+}
+
+// Without an eye the Earth is flat and land and falls are drawn alike everywhere: in the second ring
+// a fall is the square's own, moved, and in the first one its mirror image, up to the triangles that
+// the land's cells are cut into.
+static void falls_of_copies_are_the_squares(void **state)
+{
+    (void)state;
+    Made m;
+    TerrainParams params = land_of_falls();
+    params.beyond = 2;
+    params.rivers.fall_height = 40.0f; // of few
+    make_seen(&m, &params, NULL, 2);
+    const Terrain *terrain = terrain_of(&m);
+    const OutTree *water = terrain->water;
+    Fall fall[MOST_FALLS];
+    int count = list_falls(&m, fall);
+    int64_t moved = 0, vertices = 0;
+    for (int64_t i = 0; i < water->count; i++) {
+        if (terrain->drop[i] <= 0.0f) {
+            continue;
+        }
+        float reach = 2.0f * m.field->cell.x + 2.0f * water->radius[i];
+        const Mesh *own = fall_at(fall, count, vec3_add(water->position[i], params.position), reach);
+        assert_non_null(own);
+        for (int k = 0; k < 25; k++) {
+            int column = k % 5 - 2, row = k / 5 - 2;
+            const Mesh *there =
+                fall_at(fall, count, place_in_copy(&m, water->position[i], column, row), reach);
+            assert_non_null(there);
+            assert_int_equal(there->vertex_count, own->vertex_count);
+            assert_memory_equal(there->foam, own->foam, sizeof(float));
+            for (int64_t v = 0; v < own->vertex_count; v++) {
+                Vec3 p = vec3_sub(own->position[v], params.position);
+                float off = vec3_distance(there->position[v], place_in_copy(&m, p, column, row));
+                bool translated = column % 2 == 0 && row % 2 == 0;
+                assert_true(off < (translated ? 1e30f : 4.0f * reach));
+                vertices += translated;
+                moved += translated && off > 0.05f;
+            }
+        }
+    }
+    print_message("%d of %d vertices are elsewhere\n", (int)moved, (int)vertices);
+    assert_true(vertices > 500000 && moved < vertices / 30);
     drop(&m);
 }
 
@@ -578,6 +724,8 @@ int main(void)
         cmocka_unit_test(rivers_run_in_drawn_beds),
         cmocka_unit_test(trees_stand_on_drawn_land),
         cmocka_unit_test(water_falls_over_drawn_land),
+        cmocka_unit_test(rivers_drop_in_copies),
+        cmocka_unit_test(falls_of_copies_are_the_squares),
         cmocka_unit_test(tiles_end_at_the_lands_own_samples),
         cmocka_unit_test(broad_water_ends_at_drawn_shores),
         cmocka_unit_test(threads_change_no_bit),
