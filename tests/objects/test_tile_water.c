@@ -379,7 +379,45 @@ static const Mesh *fall_at(const Fall *fall, int count, Vec3 place, float reach)
     return NULL;
 }
 
-// Water falls over the drawn land and as far down as it, in the square and in its copies.
+// Vertices of falling water under the drawn land.
+static int64_t count_under(const Made *m, const Mesh *mesh)
+{
+    int64_t under = 0;
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        under += mesh->position[i].y < land_below(m, mesh->position[i]) - 0.5f;
+    }
+    return under;
+}
+
+typedef struct FallsSeen {
+    int drawn, coarser;
+    int64_t vertices, under;
+} FallsSeen;
+
+// The falls of a lip in the square and in its copies; only those too small to be seen are missing.
+static void look_at_falls(const Made *m, const Fall *fall, int count, int64_t lip, FallsSeen *seen)
+{
+    const Terrain *terrain = terrain_of(m);
+    Vec3 place = terrain->water->position[lip], eye = vec3_add(m->eye, m->params.position);
+    float reach = 2.0f * m->field->cell.x + 2.0f * terrain->water->radius[lip];
+    const Mesh *own = fall_at(fall, count, vec3_add(place, m->params.position), reach);
+    assert_non_null(own);
+    for (int k = 0; k < 9; k++) {
+        Vec3 there = place_in_copy(m, place, k % 3 - 1, k / 3 - 1);
+        const Mesh *mesh = fall_at(fall, count, there, reach);
+        float least = 0.0004f * vec3_distance(there, eye), high = terrain->drop[lip];
+        assert_true(mesh ? high > 0.98f * least : high < 1.02f * least);
+        if (mesh) {
+            seen->drawn++;
+            seen->coarser += 2 * mesh->vertex_count < own->vertex_count;
+            seen->vertices += mesh->vertex_count;
+            seen->under += count_under(m, mesh);
+        }
+    }
+}
+
+// Each river that drops in the square drops in its copies, too, the coarser the farther, over the
+// drawn land and as far down as it.
 static void water_falls_over_drawn_land(void **state)
 {
     (void)state;
@@ -388,60 +426,23 @@ static void water_falls_over_drawn_land(void **state)
     make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
     check_land(&m);
     Fall fall[MOST_FALLS];
-    int count = list_falls(&m, fall), beyond = 0;
-    int64_t vertices = 0, under = 0;
-    for (int k = 0; k < count; k++) {
-        Vec3 own = vec3_sub(fall[k].top, params.position);
-        beyond += fmaxf(fabsf(own.x), fabsf(own.z)) > 2001.0f;
-        for (int64_t i = 0; i < fall[k].mesh->vertex_count; i++, vertices++) {
-            Vec3 p = fall[k].mesh->position[i];
-            under += p.y < land_below(&m, p) - 0.5f;
+    int count = list_falls(&m, fall);
+    FallsSeen seen = {0};
+    for (int64_t i = 0; i < terrain_of(&m)->water->count; i++) {
+        if (terrain_of(&m)->drop[i] > 0.0f) {
+            look_at_falls(&m, fall, count, i, &seen);
         }
     }
-    print_message("%d falls, %d beyond: %d of %d vertices under the land\n", count, beyond,
-                  (int)under, (int)vertices);
-    assert_true(count - beyond > 3 && beyond > 25 && under < vertices / 50);
+    print_message("%d falls, %d of them much coarser: %d of %d vertices under the land\n",
+                  seen.drawn, seen.coarser, (int)seen.under, (int)seen.vertices);
+    assert_int_equal(seen.drawn, count);
+    assert_true(seen.drawn > 30 && seen.coarser > 10 && seen.under < seen.vertices / 50);
     drop(&m);
 }
 
-// Each river that drops in the square drops in each copy, too, unless the fall is too small to be
-// seen from the eye; the farther, the coarser.
-static void rivers_drop_in_copies(void **state)
-{
-    (void)state;
-    Made m;
-    TerrainParams params = land_of_falls();
-    Vec3 eye = vec3(300.0f, 200.0f, 500.0f);
-    make(&m, &params, eye, 2);
-    const Terrain *terrain = terrain_of(&m);
-    const OutTree *water = terrain->water;
-    Fall fall[MOST_FALLS];
-    int count = list_falls(&m, fall), seen = 0, unseen = 0, coarser = 0;
-    for (int64_t i = 0; i < water->count; i++) {
-        float high = terrain->drop[i], reach = 2.0f * m.field->cell.x + 2.0f * water->radius[i];
-        const Mesh *own = high > 0.0f
-                              ? fall_at(fall, count, vec3_add(water->position[i], params.position), reach)
-                              : NULL;
-        assert_true(own || high <= 0.0f);
-        for (int k = 0; own && k < 9; k++) {
-            Vec3 lip = place_in_copy(&m, water->position[i], k % 3 - 1, k / 3 - 1);
-            float away = vec3_distance(lip, vec3_add(eye, params.position));
-            const Mesh *there = fall_at(fall, count, lip, reach);
-            assert_true(there ? high > 0.00039f * away : high < 0.00041f * away);
-            seen += there != NULL;
-            unseen += !there;
-            coarser += there && 2 * there->vertex_count < own->vertex_count;
-        }
-    }
-    print_message("%d falls are drawn, %d of them much coarser, %d are not\n", seen, coarser,
-                  unseen);
-    assert_true(seen > 30 && coarser > 10);
-    drop(&m);
-}
-
-// Without an eye the Earth is flat and land and falls are drawn alike everywhere: in the second ring
-// a fall is the square's own, moved, and in the first one its mirror image, up to the triangles that
-// the land's cells are cut into.
+// Without an eye the Earth is flat and land and falls are drawn alike everywhere: in the second
+// ring a fall is the square's own, moved, and in the first one its mirror image, up to the
+// triangles that the land's cells are cut into.
 static void falls_of_copies_are_the_squares(void **state)
 {
     (void)state;
@@ -460,7 +461,8 @@ static void falls_of_copies_are_the_squares(void **state)
             continue;
         }
         float reach = 2.0f * m.field->cell.x + 2.0f * water->radius[i];
-        const Mesh *own = fall_at(fall, count, vec3_add(water->position[i], params.position), reach);
+        const Mesh *own =
+            fall_at(fall, count, vec3_add(water->position[i], params.position), reach);
         assert_non_null(own);
         for (int k = 0; k < 25; k++) {
             int column = k % 5 - 2, row = k / 5 - 2;
@@ -484,37 +486,111 @@ static void falls_of_copies_are_the_squares(void **state)
     drop(&m);
 }
 
-// Each tree's foot is 0.06 of its height below the drawn land, and none stands in water.
-static void trees_stand_on_drawn_land(void **state)
+// The land of lakes with trees nearly everywhere.
+static TerrainParams land_of_trees(int beyond)
 {
-    (void)state;
-    Made m;
     TerrainParams params = land_of_lakes();
     params.forest.count = 20000;
     params.forest.slope = 60.0f;
     params.forest.high = 1.0f;
-    make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
-    check_land(&m);
-    int64_t trees = 0;
-    double coarse = 0.0;
-    for (int64_t k = 1; k < m.geometry.count; k++) {
-        const Part *part = &m.geometry.part[k];
-        for (int64_t i = 0; i < part->instance_count; i++, trees++) {
+    params.forest.beyond = beyond;
+    return params;
+}
+
+typedef struct Trees {
+    int64_t own, beyond; // in the square and in its copies
+    double coarse;       // m by which the land is off that its samples tell
+} Trees;
+
+// Each tree's foot is 0.06 of its height below the drawn land, and none stands in water.
+static void look_at_tree(const Made *m, const Transform *tree, Trees *trees)
+{
+    Vec3 foot = transform_point(tree, vec3(0, 0, 0)), top = transform_point(tree, vec3(0, 1, 0));
+    float ground = land_below(m, foot), sunk = 0.06f * (top.y - foot.y);
+    assert_true(fabsf(foot.y + sunk - ground) < 0.005f);
+    Vec2 at = in_square(m, foot);
+    float x = foot.x - m->params.position.x, z = foot.z - m->params.position.z;
+    float flat = ground - m->params.position.y + tile_view_sinks(&m->view, x, z);
+    trees->coarse =
+        fmax(trees->coarse, fabs((double)(height_field_at(m->field, at.x, at.y) - flat)));
+    assert_true(flat > m->field->water[terrain_sample_at(m->field, at.x, at.y)]);
+    bool own = fmaxf(fabsf(x), fabsf(z)) <= 0.5f * m->params.size;
+    trees->own += own;
+    trees->beyond += !own;
+}
+
+static void trees_stand_on_drawn_land(void **state)
+{
+    (void)state;
+    for (int beyond = 0; beyond < 2; beyond++) {
+        Made m;
+        TerrainParams params = land_of_trees(beyond);
+        make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
+        check_land(&m);
+        Trees trees = {0};
+        for (int64_t k = 1; k < m.geometry.count; k++) {
+            const Part *part = &m.geometry.part[k];
+            for (int64_t i = 0; i < part->instance_count; i++) {
+                look_at_tree(&m, &part->instance[i], &trees);
+            }
+        }
+        print_message("%d trees, %d beyond; the coarse land is up to %.1f m off\n", (int)trees.own,
+                      (int)trees.beyond, trees.coarse);
+        assert_true(trees.own > 1000 && trees.coarse > 1.0);
+        assert_true(beyond ? trees.beyond > 500 : trees.beyond == 0);
+        drop(&m);
+    }
+}
+
+// Trees within 1 km of the eye, beyond the square's eastern border or before it.
+static int64_t trees_about(const Made *m, bool beyond)
+{
+    int64_t count = 0;
+    for (int64_t k = 1; k < m->geometry.count; k++) {
+        const Part *part = &m->geometry.part[k];
+        for (int64_t i = 0; i < part->instance_count; i++) {
             Vec3 foot = transform_point(&part->instance[i], vec3(0, 0, 0));
-            Vec3 top = transform_point(&part->instance[i], vec3(0, 1, 0));
-            float ground = land_below(&m, foot), sunk = 0.06f * (top.y - foot.y);
-            assert_true(fabsf(foot.y + sunk - ground) < 0.005f);
-            float x = foot.x - params.position.x, z = foot.z - params.position.z;
-            coarse =
-                fmax(coarse,
-                     fabs((double)(height_field_at(m.field, x, z) - ground + params.position.y)));
-            float level = m.field->water[terrain_sample_at(m.field, x, z)];
-            assert_true(ground - params.position.y + tile_view_sinks(&m.view, x, z) > level);
+            Vec3 own = vec3_sub(foot, m->params.position);
+            float x = own.x - m->eye.x, z = own.z - m->eye.z;
+            bool there = own.x > 0.5f * m->params.size;
+            count += there == beyond && x * x + z * z < 1e6f;
         }
     }
-    print_message("%d trees; the coarse land is up to %.1f m off\n", (int)trees, coarse);
-    assert_true(trees > 1000 && coarse > 1.0);
-    drop(&m);
+    return count;
+}
+
+// The woods of the square are the same with those of its copies beside them; seen from its border
+// both sides are alike, tiles or not.
+static void woods_go_on_beyond_the_square(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        TerrainParams params = land_of_trees(0);
+        params.forest.count = 8000;
+        params.tiles.drawn = k > 0;
+        Made alone, all;
+        Vec3 eye = vec3(2000.0f, 300.0f, 200.0f);
+        make(&alone, &params, eye, 2);
+        params.forest.beyond = 1;
+        make(&all, &params, eye, 2);
+        assert_int_equal(alone.geometry.count, all.geometry.count);
+        for (int64_t i = 1; i < alone.geometry.count; i++) {
+            const Part *a = &alone.geometry.part[i], *b = &all.geometry.part[i];
+            bool woods = !a->is_water && a->mesh->face_count < 1000;
+            assert_true(woods ? b->instance_count > a->instance_count + 50
+                              : b->instance_count == a->instance_count);
+            if (woods) {
+                assert_memory_equal(a->instance, b->instance,
+                                    sizeof *a->instance * (size_t)a->instance_count);
+            }
+        }
+        int64_t near = trees_about(&all, false), far = trees_about(&all, true);
+        print_message("%d trees west of the border, %d east of it\n", (int)near, (int)far);
+        // 5 standard errors of the difference
+        assert_true(near > 300 && (near - far) * (near - far) < 25 * (near + far));
+        drop(&alone);
+        drop(&all);
+    }
 }
 
 // ---- forms whose tiles end at the square's border
@@ -694,6 +770,9 @@ static void threads_change_no_bit(void **state)
     for (int k = 0; k < 3; k++) { // rivers, a meander, a coast
         TerrainParams params = k == 0 ? land_of_rivers() : land_that_ends(k == 1 ? 0 : 3);
         params.forest.count = 2000;
+        params.forest.beyond = k == 1 ? 0 : 1;
+        params.rivers.fall_height = 2.0f;
+        params.rivers.fall_slope = 0.4f;
         Made one, three;
         make(&one, &params, vec3(300.0f, 200.0f, 500.0f), 1);
         make(&three, &params, vec3(300.0f, 200.0f, 500.0f), 3);
@@ -723,8 +802,8 @@ int main(void)
         cmocka_unit_test(lakes_end_at_drawn_shores),
         cmocka_unit_test(rivers_run_in_drawn_beds),
         cmocka_unit_test(trees_stand_on_drawn_land),
+        cmocka_unit_test(woods_go_on_beyond_the_square),
         cmocka_unit_test(water_falls_over_drawn_land),
-        cmocka_unit_test(rivers_drop_in_copies),
         cmocka_unit_test(falls_of_copies_are_the_squares),
         cmocka_unit_test(tiles_end_at_the_lands_own_samples),
         cmocka_unit_test(broad_water_ends_at_drawn_shores),

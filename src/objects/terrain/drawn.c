@@ -13,6 +13,11 @@ bool drawn_is_copy(const DrawnLand *land)
     return land->column != 0 || land->row != 0;
 }
 
+bool drawn_of_tiles(const DrawnLand *land)
+{
+    return land->mesh && !(drawn_is_copy(land) && terrain_tiles_end(land->terrain->params));
+}
+
 float drawn_away(const DrawnLand *land, Vec3 place)
 {
     if (!land->mesh || !land->view->eye) {
@@ -25,7 +30,7 @@ float drawn_away(const DrawnLand *land, Vec3 place)
 
 float drawn_land_at(const DrawnLand *land, float x, float z)
 {
-    if (!land->mesh) {
+    if (!drawn_of_tiles(land)) {
         return height_mesh_finest_at(land->field, x, z);
     }
     Vec3 p = vec3(x, 0.0f, z), middle = land->terrain->params->position;
@@ -47,11 +52,9 @@ static Vec3 sunk(const DrawnLand *land, Vec3 p)
 
 Vec3 drawn_in_scene(const DrawnLand *land, Vec3 place)
 {
-    if (!land->mesh) {
-        return place;
-    }
     Transform copy = copy_of(land);
-    return sunk(land, drawn_is_copy(land) ? transform_point(&copy, place) : place);
+    Vec3 p = drawn_is_copy(land) ? transform_point(&copy, place) : place;
+    return land->mesh ? sunk(land, p) : p;
 }
 
 bool drawn_move(const DrawnLand *land, Mesh *mesh, Error *e)

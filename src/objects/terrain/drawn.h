@@ -19,8 +19,11 @@ typedef struct DrawnLand {
 // Is a copy of the square meant, not itself?
 bool drawn_is_copy(const DrawnLand *land);
 
-// m from the eye to a place of the square, or of its copy, in the terrain's own space; 0 if the land
-// is drawn alike near and far.
+// Is the land that is meant of tiles? Else it is the square's own mesh, or coarser copies of that.
+bool drawn_of_tiles(const DrawnLand *land);
+
+// m from the eye to a place of the square, or of its copy, in the terrain's own space; 0 if the
+// land is drawn alike near and far.
 float drawn_away(const DrawnLand *land, Vec3 place);
 
 // The height of the land that is drawn at a place of the square, or of its copy; on a flat Earth.

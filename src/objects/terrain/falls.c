@@ -78,7 +78,7 @@ int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *pla
 // ---- strands
 
 enum {
-    ROWS = 96,   // of a strand, or in the distance at least
+    ROWS = 96, // of a strand, or in the distance at least
     FEWEST_ROWS = 6,
     SHEET = 28, // rows of the sheet in which water leaves the lip, and likewise
     FEWEST_SHEET = 4,
@@ -114,7 +114,7 @@ typedef struct FallMesher {
     Vec3 way, across;
     float half, speed, cover; // cover: how closely strands stand together at the foot, 0..1
     FallDetail detail;
-    bool breaks;              // below the lip its strands become white water
+    bool breaks; // below the lip its strands become white water
     Mesh *mesh;
     int64_t vertices, faces;
 } FallMesher;
