@@ -559,8 +559,7 @@ static bool check_forest(const Mapping *mapping, const TerrainParams *terrain)
     }
     return rings <= terrain->beyond ||
            mapping_fail(mapping, "forest.beyond",
-                        " is %d, but the land goes on over %d rings of copies; set the terrain's "
-                        "beyond to as many",
+                        " is %d, but the terrain's own beyond is %d; that must be as much at least",
                         rings, terrain->beyond);
 }
 
