@@ -135,8 +135,9 @@ bool cover_finish(Cover *cover, Error *e)
     return true;
 }
 
-// Height of a triangle above (x, z), if it covers that point; *up: whether it faces up.
-static bool height_over(const Triangle *t, float x, float z, float *height, bool *up)
+// Height of a triangle above (x, z), if it covers that point, or all but covers it: `beside` it, as
+// a share of its size; *up: whether it faces up.
+static bool height_over(const Triangle *t, float x, float z, float beside, float *height, bool *up)
 {
     float bx = t->b.x - t->a.x, bz = t->b.z - t->a.z, cx = t->c.x - t->a.x, cz = t->c.z - t->a.z;
     float area = bz * cx - bx * cz; // positive if counter-clockwise seen from above
@@ -146,8 +147,8 @@ static bool height_over(const Triangle *t, float x, float z, float *height, bool
         u = -u;
         v = -v;
     }
-    float size = fabsf(area);
-    if (!(size > 0.0f) || u < 0.0f || v < 0.0f || u + v > size) {
+    float size = fabsf(area), out = beside * size;
+    if (!(size > 0.0f) || u < -out || v < -out || u + v > size + out) {
         return false;
     }
     *height = t->a.y + (u * (t->b.y - t->a.y) + v * (t->c.y - t->a.y)) / size;
@@ -155,25 +156,59 @@ static bool height_over(const Triangle *t, float x, float z, float *height, bool
     return true;
 }
 
+// The cell at a place; -1 = it is beside all triangles.
+static int64_t cell_at(const Cover *cover, float x, float z)
+{
+    if (cover->count == 0 || x < cover->x || z < cover->z || x > cover->x + cover->width ||
+        z > cover->z + cover->depth) {
+        return -1;
+    }
+    int column = cell_of(x, cover->x, cover->width, cover->side);
+    int row = cell_of(z, cover->z, cover->depth, cover->side);
+    return (int64_t)row * cover->side + column;
+}
+
 bool cover_hides(const Cover *cover, Vec3 p)
 {
-    if (cover->count == 0 || p.x < cover->x || p.z < cover->z || p.x > cover->x + cover->width ||
-        p.z > cover->z + cover->depth) {
-        return false;
-    }
-    int column = cell_of(p.x, cover->x, cover->width, cover->side);
-    int row = cell_of(p.z, cover->z, cover->depth, cover->side);
-    int64_t cell = (int64_t)row * cover->side + column;
+    int64_t cell = cell_at(cover, p.x, p.z);
     float nearest = INFINITY;
     bool hidden = false;
-    for (int64_t k = cover->start[cell]; k < cover->start[cell + 1]; k++) {
+    for (int64_t k = cell < 0 ? 0 : cover->start[cell]; cell >= 0 && k < cover->start[cell + 1];
+         k++) {
         float height;
         bool up;
-        if (height_over(&cover->triangle[cover->item[k]], p.x, p.z, &height, &up) && height > p.y &&
-            height < nearest) {
+        if (height_over(&cover->triangle[cover->item[k]], p.x, p.z, 0.0f, &height, &up) &&
+            height > p.y && height < nearest) {
             nearest = height;
             hidden = up;
         }
     }
     return hidden;
+}
+
+static Vec3 upward_normal(const Triangle *t)
+{
+    Vec3 normal = vec3_normalize(vec3_cross(vec3_sub(t->b, t->a), vec3_sub(t->c, t->a)));
+    return normal.y < 0.0f ? vec3_scale(normal, -1.0f) : normal;
+}
+
+bool cover_top(const Cover *cover, float x, float z, float *height, Vec3 *normal)
+{
+    const float beside = 1e-4f; // places on an edge are in one of its triangles at least
+    int64_t cell = cell_at(cover, x, z);
+    const Triangle *top = NULL;
+    for (int64_t k = cell < 0 ? 0 : cover->start[cell]; cell >= 0 && k < cover->start[cell + 1];
+         k++) {
+        const Triangle *t = &cover->triangle[cover->item[k]];
+        float own;
+        bool up;
+        if (height_over(t, x, z, beside, &own, &up) && (!top || own > *height)) {
+            *height = own;
+            top = t;
+        }
+    }
+    if (top) {
+        *normal = upward_normal(top);
+    }
+    return top;
 }

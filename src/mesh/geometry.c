@@ -155,9 +155,9 @@ Mesh *geometry_bake(const Part *part, const Run *run, Error *e)
     return out;
 }
 
-static bool is_surface(const Part *part)
+static bool is_joined(const Part *part, bool water)
 {
-    return part->mesh && !part->instance && !part->is_water;
+    return part->mesh && !part->instance && part->is_water == water;
 }
 
 // Appends triangles; the counts are those so far.
@@ -179,12 +179,13 @@ static void append(Mesh *out, const Mesh *mesh)
     out->vertex_count += mesh->vertex_count;
 }
 
-Mesh *geometry_surface(const Geometry *geometry, Error *e)
+// The meshes of water, or those of all else.
+static Mesh *join(const Geometry *geometry, bool water, Error *e)
 {
     int64_t vertices = 0, faces = 0;
     for (int64_t i = 0; i < geometry->count; i++) {
         const Part *part = &geometry->part[i];
-        if (is_surface(part)) {
+        if (is_joined(part, water)) {
             vertices += part->mesh->vertex_count;
             faces += part->mesh->face_count * (part->mesh->face_size - 2);
         }
@@ -195,13 +196,24 @@ Mesh *geometry_surface(const Geometry *geometry, Error *e)
     }
     out->vertex_count = out->face_count = 0;
     for (int64_t i = 0; i < geometry->count; i++) {
-        if (is_surface(&geometry->part[i])) {
+        if (is_joined(&geometry->part[i], water)) {
             append(out, geometry->part[i].mesh);
         }
     }
-    if (!mesh_compute_normals(out, e)) {
+    return out;
+}
+
+Mesh *geometry_surface(const Geometry *geometry, Error *e)
+{
+    Mesh *out = join(geometry, false, e);
+    if (out && !mesh_compute_normals(out, e)) {
         mesh_free(out);
         return NULL;
     }
     return out;
+}
+
+Mesh *geometry_water(const Geometry *geometry, Error *e)
+{
+    return join(geometry, true, e);
 }

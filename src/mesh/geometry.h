@@ -87,6 +87,9 @@ Mesh *geometry_bake(const Part *part, const Run *run, Error *e);
 // mesh_free.
 Mesh *geometry_surface(const Geometry *geometry, Error *e);
 
+// Likewise, without normals, of the water.
+Mesh *geometry_water(const Geometry *geometry, Error *e);
+
 typedef struct GeometryCounts {
     int64_t triangles; // counted once per part; a quad counts as two
     int64_t curve_segments;

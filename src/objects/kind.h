@@ -102,7 +102,7 @@ typedef struct Kind {
     HeightField *(*heights)(const void *params, const Grown *grown, const Run *run, Error *e);
 
     // Lists where its surface is seen again beyond it, ring by ring, and returns how many these
-    // are; copy: NULL = count them. NULL = it has no copies.
+    // are; either all or none are in its mesh. copy: NULL = count them. NULL = it has no copies.
     int (*surface_copies)(const void *params, struct SurfaceCopy *copy);
 
     // Fills in how the land is cut into tiles, but for the seed; false = it is not. NULL = never.

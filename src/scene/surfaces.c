@@ -14,6 +14,7 @@ typedef struct Surface {
     Mesh *mesh; // of `over`; NULL = not made yet
     ShapeSurface over;
     SurfaceCopy *copy;       // of `over`; owned
+    Mesh *water;             // likewise
     const HeightField *land; // NULL = it is no terrain
     HeightField *own_land;   // that one, unless a placed part owns it
 } Surface;
@@ -46,6 +47,7 @@ void surfaces_free(Surfaces *surfaces)
             nearest_free(surfaces->of[i].nearest);
             mesh_free(surfaces->of[i].mesh);
             free(surfaces->of[i].copy);
+            mesh_free(surfaces->of[i].water);
             height_field_free(surfaces->of[i].own_land);
         }
         free(surfaces->of);
@@ -58,8 +60,30 @@ static void find_nearest(const void *user, Vec3 *p, Vec3 *normal)
     nearest_point(user, p, normal);
 }
 
-// Makes what is missing of the surface; the mesh only if it is wanted.
-static bool make(Surface *surface, const Geometry *geometry, bool mesh, const Run *run, Error *e)
+// Lists where the surface is seen again, with the water there if these places are in its mesh.
+static bool find_copies(Surface *surface, const SceneObject *object, const Geometry *parts,
+                        Error *e)
+{
+    const Kind *kind = object->kind;
+    int count = kind->surface_copies ? kind->surface_copies(object->params, NULL) : 0;
+    if (count == 0) {
+        return true;
+    }
+    surface->copy = memory_alloc(count, sizeof *surface->copy, e);
+    if (!surface->copy) {
+        return false;
+    }
+    kind->surface_copies(object->params, surface->copy);
+    surface->water = surface->copy->in_mesh ? geometry_water(parts, e) : NULL;
+    surface->over.copy = surface->copy;
+    surface->over.copy_count = count;
+    surface->over.water = surface->water;
+    return surface->water || !surface->copy->in_mesh;
+}
+
+// Makes what is missing of the object's surface; the mesh only if it is wanted.
+static bool make(Surface *surface, const SceneObject *object, const Geometry *geometry, bool mesh,
+                 const Run *run, Error *e)
 {
     if (!surface->nearest) {
         Aabb box = geometry_bounds(geometry, 0);
@@ -71,7 +95,8 @@ static bool make(Surface *surface, const Geometry *geometry, bool mesh, const Ru
         surface->over = (ShapeSurface){
             .mesh = surface->mesh, .nearest = find_nearest, .user = surface->nearest};
     }
-    return surface->nearest && (surface->mesh || !mesh);
+    return surface->nearest &&
+           (!mesh || (surface->mesh && find_copies(surface, object, geometry, e)));
 }
 
 static bool build(Surfaces *surfaces, int index, bool mesh, const Run *run, Error *e)
@@ -80,11 +105,12 @@ static bool build(Surfaces *surfaces, int index, bool mesh, const Run *run, Erro
     quiet.warn = NULL;
     quiet.observer = NULL;
     BuildStats stats = {0};
+    const SceneObject *object = &surfaces->scene->objects[index];
     World *world = world_new(e);
     bool done = world && scene_give_settings(surfaces->scene, world, e) &&
                 scene_place_object(world, surfaces->scene, index, (Shared){.surfaces = surfaces},
                                    &quiet, &stats, e) &&
-                make(&surfaces->of[index], &world->geometry, mesh, run, e);
+                make(&surfaces->of[index], object, &world->geometry, mesh, run, e);
     for (int64_t i = 0; done && i < world->geometry.count; i++) {
         Part *part = &world->geometry.part[i];
         if (part->land && !surfaces->of[index].own_land) {
@@ -121,9 +147,10 @@ static bool prepare(Surfaces *surfaces, int index, bool mesh, const Run *run, Er
     if (surface->nearest && (surface->mesh || !mesh)) {
         return true;
     }
+    const SceneObject *object = &surfaces->scene->objects[index];
     Geometry parts;
     bool done = find_placed(surfaces, index, &parts, e) &&
-                (parts.count > 0 ? make(surface, &parts, mesh, run, e)
+                (parts.count > 0 ? make(surface, object, &parts, mesh, run, e)
                                  : build(surfaces, index, mesh, run, e));
     free(parts.part);
     return done;
@@ -138,28 +165,10 @@ const Nearest *surfaces_of(Surfaces *surfaces, int index, float *size, const Run
     return surfaces->of[index].nearest;
 }
 
-// Lists where the object's surface is seen again.
-static bool find_copies(Surface *surface, const SceneObject *object, Error *e)
-{
-    const Kind *kind = object->kind;
-    int count = kind->surface_copies ? kind->surface_copies(object->params, NULL) : 0;
-    if (count == 0 || surface->copy) {
-        return true;
-    }
-    surface->copy = memory_alloc(count, sizeof *surface->copy, e);
-    if (surface->copy) {
-        kind->surface_copies(object->params, surface->copy);
-        surface->over.copy = surface->copy;
-        surface->over.copy_count = count;
-    }
-    return surface->copy;
-}
-
 const ShapeSurface *surfaces_over(Surfaces *surfaces, int index, const Run *run, Error *e)
 {
     Surface *surface = &surfaces->of[index];
-    if (!prepare(surfaces, index, true, run, e) ||
-        !find_copies(surface, &surfaces->scene->objects[index], e)) {
+    if (!prepare(surfaces, index, true, run, e)) {
         return NULL;
     }
     if (!(mesh_area(surface->mesh) > 0.0)) {

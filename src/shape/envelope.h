@@ -51,6 +51,7 @@ typedef struct EnvelopeParams {
 typedef struct SurfaceCopy {
     Transform place; // from the surface to its copy
     int ring;        // 1 = next to it
+    bool in_mesh;    // the surface's mesh goes on there, with ground of its own
 } SurfaceCopy;
 
 // A surface that exists already; borrowed.
@@ -59,8 +60,10 @@ typedef struct ShapeSurface {
     // Moves p to the nearest point of the surface and sets the unit normal there. Thread-safe.
     void (*nearest)(const void *user, Vec3 *p, Vec3 *normal);
     const void *user;
-    const SurfaceCopy *copy; // beyond it; borrowed; the mesh holds the surface alone
+    const SurfaceCopy *copy; // beyond it; borrowed
     int copy_count;
+    const Mesh
+        *water; // of land with copies in its mesh: its water, also theirs; borrowed; else NULL
 } ShapeSurface;
 
 typedef struct Envelope Envelope;

@@ -139,7 +139,16 @@ static void lists_where_it_is_copied(const TerrainParams *params, const Part *ar
     assert_int_equal(kind_terrain.surface_copies(&more, copy), 24);
     for (int i = 0; i < 24; i++) {
         assert_int_equal(copy[i].ring, i < 8 ? 1 : 2);
+        assert_false(copy[i].in_mesh);
     }
+    // Tiles go on over the copies, but not beyond a coast's square.
+    more.tiles = (TerrainTileParams){.count = 4, .cells = 64, .drawn = true};
+    assert_int_equal(kind_terrain.surface_copies(&more, copy), 24);
+    assert_true(copy[0].in_mesh && copy[23].in_mesh);
+    more.form = TERRAIN_COAST;
+    assert_int_equal(kind_terrain.surface_copies(&more, copy), 2 * 5 - 1);
+    assert_false(copy[0].in_mesh);
+    more.tiles.drawn = false;
     more.form = TERRAIN_COAST; // along the shore and inland alone
     assert_int_equal(kind_terrain.surface_copies(&more, NULL), 2 * 5 - 1);
     more.form = TERRAIN_DELTA;

@@ -32,7 +32,9 @@ static ThingPlaces places_of(const ScatteringParams *scatter, const Recipe *reci
 {
     ThingPlaces places;
     Error e = {0};
-    assert_true(scatter_places_init(&places, scatter, recipe, around, &e));
+    int64_t settled;
+    assert_true(scatter_places_init(&places, scatter, recipe, around, &settled, &e));
+    assert_true(settled <= scatter->count && settled <= places.count);
     return places;
 }
 
@@ -210,7 +212,8 @@ static void goes_on_over_copies_of_the_surface(void **state)
     const Transform mirror =
         transform_from_axes(vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(4, 0, 0));
     const Transform below = transform_compose(vec3(0, -0.5f, 3), vec3(0, 0, 0), vec3(1, 1, 1));
-    const SurfaceCopy copy[] = {{mirror, 1}, {below, 1}, {transform_identity(), 2}};
+    const SurfaceCopy copy[] = {
+        {mirror, 1, false}, {below, 1, false}, {transform_identity(), 2, false}};
     ShapeSurface surface = {.mesh = ball, .copy = copy, .copy_count = 3};
     Thing thing = {.share = 1.0f};
     ScatteringParams scatter = of_things(&thing, 1);
@@ -244,6 +247,184 @@ static void goes_on_over_copies_of_the_surface(void **state)
     thing_places_free(&alone);
     thing_places_free(&places);
     mesh_free(ball);
+}
+
+// ---- land with copies in its mesh
+
+enum { SQUARE = 20, SQUARE_CELLS = 8 }; // m; cells a side
+
+// The land of the square (0, 0), and what its mirrored copies add to it.
+static float land_of_square(int column, int row, float x, float z)
+{
+    float own = 0.4f * sinf(0.3f * x) + 0.2f * cosf(0.5f * z + 0.1f * x);
+    return own + (float)(3 * row + column) * 0.7f + 0.05f * (float)(column * row) * sinf(x + z);
+}
+
+// The square with `rings` around it, each copy with ground of its own.
+static Mesh *mesh_of_squares(int rings)
+{
+    enum { SIDE = SQUARE_CELLS + 1 };
+    int across = 2 * rings + 1, squares = across * across, face = 0;
+    Mesh *mesh = mesh_new(3, (int64_t)squares * SIDE * SIDE,
+                          2 * (int64_t)squares * SQUARE_CELLS * SQUARE_CELLS, 0, NULL);
+    assert_non_null(mesh);
+    for (int i = 0; i < squares * SIDE * SIDE; i++) {
+        int square = i / (SIDE * SIDE), at = i % (SIDE * SIDE);
+        int column = square % across - rings, row = square / across - rings;
+        float x = (float)(at % SIDE - SQUARE_CELLS / 2) * SQUARE / SQUARE_CELLS;
+        float z = (float)(at / SIDE - SQUARE_CELLS / 2) * SQUARE / SQUARE_CELLS;
+        float own_x = column % 2 == 0 ? x : -x, own_z = row % 2 == 0 ? z : -z;
+        mesh->position[i] =
+            vec3((float)(column * SQUARE) + x, land_of_square(column, row, own_x, own_z),
+                 (float)(row * SQUARE) + z);
+        if (at % SIDE < SQUARE_CELLS && at / SIDE < SQUARE_CELLS) {
+            uint32_t v = (uint32_t)i, *corner = mesh->index + 6 * face++;
+            const uint32_t of[6] = {v, v + SIDE, v + SIDE + 1, v, v + SIDE + 1, v + 1};
+            memcpy(corner, of, sizeof of);
+        }
+    }
+    return mesh;
+}
+
+// A level sheet over the western half of the copy to the east.
+static Mesh *sheet_over_the_east(float height)
+{
+    Mesh *mesh = mesh_new(4, 4, 1, 0, NULL);
+    assert_non_null(mesh);
+    for (uint32_t i = 0; i < 4; i++) {
+        float x = i < 2 ? 0.5f * SQUARE : SQUARE, z = i % 3 == 0 ? -0.5f * SQUARE : 0.5f * SQUARE;
+        mesh->position[i] = vec3(x, height, z);
+        mesh->index[i] = i;
+    }
+    return mesh;
+}
+
+// Two copies, east and north of the square.
+static void list_copies(SurfaceCopy copy[2], bool in_mesh)
+{
+    Vec3 x = vec3(1, 0, 0), y = vec3(0, 1, 0), z = vec3(0, 0, 1);
+    Vec3 east = vec3(SQUARE, 0, 0), north = vec3(0, 0, -SQUARE);
+    copy[0] = (SurfaceCopy){transform_from_axes(vec3_scale(x, -1), y, z, east), 1, in_mesh};
+    copy[1] = (SurfaceCopy){transform_from_axes(x, y, vec3_scale(z, -1), north), 1, in_mesh};
+}
+
+static HeightField *field_of_square(void)
+{
+    float cell = (float)SQUARE / SQUARE_CELLS;
+    HeightField *field = height_field_new(SQUARE_CELLS + 1, SQUARE_CELLS + 1, (Vec2){cell, cell},
+                                          (Vec2){-0.5f * SQUARE, -0.5f * SQUARE}, NULL);
+    assert_non_null(field);
+    field->water = calloc((size_t)height_field_count(field), sizeof(float));
+    assert_non_null(field->water);
+    for (int64_t i = 0; i < height_field_count(field); i++) {
+        field->water[i] = -INFINITY;
+    }
+    return field;
+}
+
+static ScatteringParams over_squares(Thing *thing)
+{
+    ScatteringParams scatter = of_things(thing, 1);
+    scatter.things.variants = 10;
+    scatter.count = 300;
+    scatter.radius = 0.0f;
+    scatter.align = 1.0f;
+    scatter.spacing = 0.3f;
+    scatter.beyond = 1;
+    return scatter;
+}
+
+// In plan, things stand where they do over copies that are the land itself, the same individuals
+// with the same turn, but on the copies' own ground and out of their own water.
+static void stands_on_the_ground_of_copies_in_the_mesh(void **state)
+{
+    (void)state;
+    const float level = 0.8f;
+    Mesh *alone = mesh_of_squares(0), *all = mesh_of_squares(1);
+    Mesh *water = sheet_over_the_east(level);
+    HeightField *field = field_of_square();
+    SurfaceCopy same[2], own[2];
+    list_copies(same, false);
+    list_copies(own, true);
+    ShapeSurface plain = {.mesh = alone, .copy = same, .copy_count = 2};
+    ShapeSurface drawn = {.mesh = all, .copy = own, .copy_count = 2, .water = water};
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = over_squares(&thing);
+    Run run = run_default();
+    Recipe recipe = {.seed = 5, .run = &run, .surface = &plain, .land = field};
+    ThingPlaces expected = places_of(&scatter, &recipe, &(Surroundings){0});
+    recipe.surface = &drawn;
+    ThingPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+    assert_int_equal(expected.count, 900);
+    int64_t at = 0, wet = 0;
+    for (int64_t i = 0; i < expected.count; i++) {
+        Vec3 there = foot(&expected.place[i]);
+        int column = there.x > 0.5f * SQUARE, row = -(there.z < -0.5f * SQUARE);
+        float x = column ? (float)SQUARE - there.x : there.x;
+        float z = row ? -(float)SQUARE - there.z : there.z;
+        float ground = land_of_square(column, row, x, z);
+        bool flooded = column && there.x < SQUARE && ground < level;
+        Vec3 p = at < places.count ? foot(&places.place[at]) : vec3_splat(-1e9f);
+        bool stands = fabsf(p.x - there.x) < 1e-5f && fabsf(p.z - there.z) < 1e-5f;
+        wet += !stands;
+        if (!stands) { // within what the cells' triangles are off
+            assert_true(column && there.x < SQUARE && ground < level + 0.2f);
+            continue;
+        }
+        assert_true(!flooded || ground > level - 0.2f);
+        assert_true(fabsf(p.y - ground) < 0.2f);
+        assert_true(column || row || fabsf(p.y - there.y) < 1e-6f);
+        assert_true(!(column && p.x < SQUARE) || p.y >= level);
+        assert_int_equal(places.thing[at], expected.thing[i]);
+        at++;
+    }
+    assert_int_equal(at, places.count);
+    print_message("%d of 300 things are left out in a copy's water\n", (int)wet);
+    assert_in_range(wet, 20, 140);
+    thing_places_free(&expected);
+    thing_places_free(&places);
+    height_field_free(field);
+    mesh_free(water);
+    mesh_free(alone);
+    mesh_free(all);
+}
+
+// Without `beyond` the whole mesh is where things may stand, but not under the copies' water; with
+// in_water nowhere else.
+static void knows_the_water_of_copies_in_the_mesh(void **state)
+{
+    (void)state;
+    const float level = 0.8f;
+    Mesh *all = mesh_of_squares(1), *water = sheet_over_the_east(level);
+    HeightField *field = field_of_square();
+    SurfaceCopy own[2];
+    list_copies(own, true);
+    ShapeSurface drawn = {.mesh = all, .copy = own, .copy_count = 2, .water = water};
+    Thing thing = {.share = 1.0f};
+    ScatteringParams scatter = over_squares(&thing);
+    scatter.count = 2000;
+    scatter.beyond = 0;
+    Run run = run_default();
+    Recipe recipe = {.seed = 5, .run = &run, .surface = &drawn, .land = field};
+    for (int in = 0; in < 2; in++) {
+        scatter.in_water = in;
+        scatter.afloat = in;
+        scatter.count = in ? 100 : 2000;
+        ThingPlaces places = places_of(&scatter, &recipe, &(Surroundings){0});
+        int64_t beside = 0;
+        for (int64_t i = 0; i < places.count; i++) {
+            Vec3 p = foot(&places.place[i]);
+            bool below = p.x > 0.5f * SQUARE && p.x < SQUARE && fabsf(p.z) < 0.5f * SQUARE;
+            assert_true(in ? below && fabsf(p.y - level) < 1e-3f : !below || p.y >= level);
+            beside += !below;
+        }
+        assert_true(in ? places.count > 30 : places.count == 2000); // tries are limited
+        assert_true(in ? beside == 0 : beside > 1600);
+        thing_places_free(&places);
+    }
+    height_field_free(field);
+    mesh_free(water);
+    mesh_free(all);
 }
 
 static void clumps(void **state)
@@ -772,6 +953,8 @@ int main(void)
         cmocka_unit_test(fills_a_small_patch_of_a_surface),
         cmocka_unit_test(fills_a_small_patch_of_a_wide_face),
         cmocka_unit_test(goes_on_over_copies_of_the_surface),
+        cmocka_unit_test(stands_on_the_ground_of_copies_in_the_mesh),
+        cmocka_unit_test(knows_the_water_of_copies_in_the_mesh),
         cmocka_unit_test(clumps),
         cmocka_unit_test(keeps_to_its_side_of_the_shore),
         cmocka_unit_test(a_depth_decides_alone),

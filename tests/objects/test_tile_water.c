@@ -33,17 +33,18 @@ static const Terrain *terrain_of(const Made *m)
     return m->grown.state;
 }
 
-// eye: in the terrain's own space.
-static void make(Made *m, const TerrainParams *params, Vec3 eye, int threads)
+// eye: in the terrain's own space; NULL = none.
+static void make_seen(Made *m, const TerrainParams *params, const Vec3 *eye, int threads)
 {
     Error e = {0};
-    *m = (Made){.params = *params, .run = run_default(), .eye = eye};
+    Vec3 from = eye ? *eye : vec3_splat(0.0f);
+    *m = (Made){.params = *params, .run = run_default(), .eye = from};
     m->run.threads = threads;
     Recipe recipe = {.seed = SEED, .label = "land", .run = &m->run};
     assert_true(kind_grow(&kind_terrain, &m->params, &recipe, 1.0f, NULL, &m->grown, &e));
     Placing placing = placing_in(&m->geometry, &recipe);
-    Vec3 there = vec3_add(eye, params->position);
-    placing.around.eye = &there;
+    Vec3 there = vec3_add(from, params->position);
+    placing.around.eye = eye ? &there : NULL;
     if (!terrain_geometry(&m->params, &m->grown, &placing, &e)) {
         fail_msg("%s", e.message);
     }
@@ -51,7 +52,7 @@ static void make(Made *m, const TerrainParams *params, Vec3 eye, int threads)
     m->grid = (TileGrid){
         .count = TILES.count, .cells = TILES.cells, .detail = TILES.detail, .seed = SEED};
     bool ends = terrain_tiles_end(params);
-    m->view = (TileView){.eye = &m->eye,
+    m->view = (TileView){.eye = eye ? &m->eye : NULL,
                          .cell = 8.0f * params->mesh_error,
                          .beyond = ends ? 0 : params->beyond,
                          .seam = ends,
@@ -60,6 +61,11 @@ static void make(Made *m, const TerrainParams *params, Vec3 eye, int threads)
     m->view.shaping = &m->water.shaping;
     m->mesh = tile_mesh_new(m->field, &m->grid, &m->view, &m->places, &m->run, &e);
     assert_non_null(m->mesh);
+}
+
+static void make(Made *m, const TerrainParams *params, Vec3 eye, int threads)
+{
+    make_seen(m, params, &eye, threads);
 }
 
 static void drop(Made *m)
@@ -313,62 +319,278 @@ static void rivers_run_in_drawn_beds(void **state)
     drop(&m);
 }
 
-// Water that falls does so in the square alone, over the drawn land and as far down as it.
+static TerrainParams land_of_falls(void)
+{
+    TerrainParams params = land_of_rivers();
+    params.rivers.fall_height = 2.0f;
+    params.rivers.fall_slope = 0.4f;
+    return params;
+}
+
+// Falling water, with its highest vertex.
+typedef struct Fall {
+    const Mesh *mesh;
+    Vec3 top;
+} Fall;
+
+enum { MOST_FALLS = 256 };
+
+static Vec3 top_of(const Mesh *mesh)
+{
+    Vec3 top = mesh->position[0];
+    for (int64_t i = 1; i < mesh->vertex_count; i++) {
+        top = mesh->position[i].y > top.y ? mesh->position[i] : top;
+    }
+    return top;
+}
+
+// The parts of falling water, which reach less far than a network of rivers.
+static int list_falls(const Made *m, Fall fall[MOST_FALLS])
+{
+    int count = 0;
+    for (int64_t k = 1; k < m->geometry.count; k++) {
+        const Part *part = &m->geometry.part[k];
+        Aabb box = mesh_bounds(part->mesh);
+        if (part->is_water && box.high.x - box.low.x < 0.1f * m->params.size) {
+            assert_true(count < MOST_FALLS);
+            fall[count++] = (Fall){part->mesh, top_of(part->mesh)};
+        }
+    }
+    return count;
+}
+
+// Where the scene has a place of the square again, on a flat Earth: mirrored by odd columns and
+// rows.
+static Vec3 place_in_copy(const Made *m, Vec3 own, int column, int row)
+{
+    float x = column % 2 == 0 ? own.x : -own.x, z = row % 2 == 0 ? own.z : -own.z;
+    Vec3 there = vec3((float)column * m->params.size + x, own.y, (float)row * m->params.size + z);
+    return vec3_add(there, m->params.position);
+}
+
+// The fall whose highest vertex is within reach (m) of a place; NULL = none.
+static const Mesh *fall_at(const Fall *fall, int count, Vec3 place, float reach)
+{
+    for (int k = 0; k < count; k++) {
+        if (vec3_distance(fall[k].top, place) < reach) {
+            return fall[k].mesh;
+        }
+    }
+    return NULL;
+}
+
+// Vertices of falling water under the drawn land.
+static int64_t count_under(const Made *m, const Mesh *mesh)
+{
+    int64_t under = 0;
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        under += mesh->position[i].y < land_below(m, mesh->position[i]) - 0.5f;
+    }
+    return under;
+}
+
+typedef struct FallsSeen {
+    int drawn, coarser;
+    int64_t vertices, under;
+} FallsSeen;
+
+// The falls of a lip in the square and in its copies; only those too small to be seen are missing.
+static void look_at_falls(const Made *m, const Fall *fall, int count, int64_t lip, FallsSeen *seen)
+{
+    const Terrain *terrain = terrain_of(m);
+    Vec3 place = terrain->water->position[lip], eye = vec3_add(m->eye, m->params.position);
+    float reach = 2.0f * m->field->cell.x + 2.0f * terrain->water->radius[lip];
+    const Mesh *own = fall_at(fall, count, vec3_add(place, m->params.position), reach);
+    assert_non_null(own);
+    for (int k = 0; k < 9; k++) {
+        Vec3 there = place_in_copy(m, place, k % 3 - 1, k / 3 - 1);
+        const Mesh *mesh = fall_at(fall, count, there, reach);
+        float least = 0.0004f * vec3_distance(there, eye), high = terrain->drop[lip];
+        assert_true(mesh ? high > 0.98f * least : high < 1.02f * least);
+        if (mesh) {
+            seen->drawn++;
+            seen->coarser += 2 * mesh->vertex_count < own->vertex_count;
+            seen->vertices += mesh->vertex_count;
+            seen->under += count_under(m, mesh);
+        }
+    }
+}
+
+// Each river that drops in the square drops in its copies, too, the coarser the farther, over the
+// drawn land and as far down as it.
 static void water_falls_over_drawn_land(void **state)
 {
     (void)state;
     Made m;
-    TerrainParams params = land_of_rivers();
-    params.rivers.fall_height = 2.0f;
-    params.rivers.fall_slope = 0.4f;
+    TerrainParams params = land_of_falls();
     make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
     check_land(&m);
-    int64_t falls = 0, vertices = 0, under = 0;
-    for (int64_t k = 2; k + 8 < m.geometry.count; k++, falls++) {
-        const Mesh *mesh = m.geometry.part[k].mesh;
-        for (int64_t i = 0; i < mesh->vertex_count; i++, vertices++) {
-            Vec3 p = mesh->position[i], own = vec3_sub(p, params.position);
-            assert_true(fabsf(own.x) < 2001.0f && fabsf(own.z) < 2001.0f);
-            under += p.y < land_below(&m, p) - 0.5f;
+    Fall fall[MOST_FALLS];
+    int count = list_falls(&m, fall);
+    FallsSeen seen = {0};
+    for (int64_t i = 0; i < terrain_of(&m)->water->count; i++) {
+        if (terrain_of(&m)->drop[i] > 0.0f) {
+            look_at_falls(&m, fall, count, i, &seen);
         }
     }
-    print_message("%d falls: %d of %d vertices under the land\n", (int)falls, (int)under,
-                  (int)vertices);
-    assert_true(falls > 3 && under < vertices / 50);
+    print_message("%d falls, %d of them much coarser: %d of %d vertices under the land\n",
+                  seen.drawn, seen.coarser, (int)seen.under, (int)seen.vertices);
+    assert_int_equal(seen.drawn, count);
+    assert_true(seen.drawn > 30 && seen.coarser > 10 && seen.under < seen.vertices / 50);
     drop(&m);
 }
 
-// Each tree's foot is 0.06 of its height below the drawn land, and none stands in water.
-static void trees_stand_on_drawn_land(void **state)
+// Without an eye the Earth is flat and land and falls are drawn alike everywhere: in the second
+// ring a fall is the square's own, moved, and in the first one its mirror image, up to the
+// triangles that the land's cells are cut into.
+static void falls_of_copies_are_the_squares(void **state)
 {
     (void)state;
     Made m;
+    TerrainParams params = land_of_falls();
+    params.beyond = 2;
+    params.rivers.fall_height = 40.0f; // of few
+    make_seen(&m, &params, NULL, 2);
+    const Terrain *terrain = terrain_of(&m);
+    const OutTree *water = terrain->water;
+    Fall fall[MOST_FALLS];
+    int count = list_falls(&m, fall);
+    int64_t moved = 0, vertices = 0;
+    for (int64_t i = 0; i < water->count; i++) {
+        if (terrain->drop[i] <= 0.0f) {
+            continue;
+        }
+        float reach = 2.0f * m.field->cell.x + 2.0f * water->radius[i];
+        const Mesh *own =
+            fall_at(fall, count, vec3_add(water->position[i], params.position), reach);
+        assert_non_null(own);
+        for (int k = 0; k < 25; k++) {
+            int column = k % 5 - 2, row = k / 5 - 2;
+            const Mesh *there =
+                fall_at(fall, count, place_in_copy(&m, water->position[i], column, row), reach);
+            assert_non_null(there);
+            assert_int_equal(there->vertex_count, own->vertex_count);
+            assert_memory_equal(there->foam, own->foam, sizeof(float));
+            for (int64_t v = 0; v < own->vertex_count; v++) {
+                Vec3 p = vec3_sub(own->position[v], params.position);
+                float off = vec3_distance(there->position[v], place_in_copy(&m, p, column, row));
+                bool translated = column % 2 == 0 && row % 2 == 0;
+                assert_true(off < (translated ? 1e30f : 4.0f * reach));
+                vertices += translated;
+                moved += translated && off > 0.05f;
+            }
+        }
+    }
+    print_message("%d of %d vertices are elsewhere\n", (int)moved, (int)vertices);
+    assert_true(vertices > 500000 && moved < vertices / 30);
+    drop(&m);
+}
+
+// The land of lakes with trees nearly everywhere.
+static TerrainParams land_of_trees(int beyond)
+{
     TerrainParams params = land_of_lakes();
     params.forest.count = 20000;
     params.forest.slope = 60.0f;
     params.forest.high = 1.0f;
-    make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
-    check_land(&m);
-    int64_t trees = 0;
-    double coarse = 0.0;
-    for (int64_t k = 1; k < m.geometry.count; k++) {
-        const Part *part = &m.geometry.part[k];
-        for (int64_t i = 0; i < part->instance_count; i++, trees++) {
+    params.forest.beyond = beyond;
+    return params;
+}
+
+typedef struct Trees {
+    int64_t own, beyond; // in the square and in its copies
+    double coarse;       // m by which the land is off that its samples tell
+} Trees;
+
+// Each tree's foot is 0.06 of its height below the drawn land, and none stands in water.
+static void look_at_tree(const Made *m, const Transform *tree, Trees *trees)
+{
+    Vec3 foot = transform_point(tree, vec3(0, 0, 0)), top = transform_point(tree, vec3(0, 1, 0));
+    float ground = land_below(m, foot), sunk = 0.06f * (top.y - foot.y);
+    assert_true(fabsf(foot.y + sunk - ground) < 0.005f);
+    Vec2 at = in_square(m, foot);
+    float x = foot.x - m->params.position.x, z = foot.z - m->params.position.z;
+    float flat = ground - m->params.position.y + tile_view_sinks(&m->view, x, z);
+    trees->coarse =
+        fmax(trees->coarse, fabs((double)(height_field_at(m->field, at.x, at.y) - flat)));
+    assert_true(flat > m->field->water[terrain_sample_at(m->field, at.x, at.y)]);
+    bool own = fmaxf(fabsf(x), fabsf(z)) <= 0.5f * m->params.size;
+    trees->own += own;
+    trees->beyond += !own;
+}
+
+static void trees_stand_on_drawn_land(void **state)
+{
+    (void)state;
+    for (int beyond = 0; beyond < 2; beyond++) {
+        Made m;
+        TerrainParams params = land_of_trees(beyond);
+        make(&m, &params, vec3(300.0f, 200.0f, 500.0f), 2);
+        check_land(&m);
+        Trees trees = {0};
+        for (int64_t k = 1; k < m.geometry.count; k++) {
+            const Part *part = &m.geometry.part[k];
+            for (int64_t i = 0; i < part->instance_count; i++) {
+                look_at_tree(&m, &part->instance[i], &trees);
+            }
+        }
+        print_message("%d trees, %d beyond; the coarse land is up to %.1f m off\n", (int)trees.own,
+                      (int)trees.beyond, trees.coarse);
+        assert_true(trees.own > 1000 && trees.coarse > 1.0);
+        assert_true(beyond ? trees.beyond > 500 : trees.beyond == 0);
+        drop(&m);
+    }
+}
+
+// Trees within 1 km of the eye, beyond the square's eastern border or before it.
+static int64_t trees_about(const Made *m, bool beyond)
+{
+    int64_t count = 0;
+    for (int64_t k = 1; k < m->geometry.count; k++) {
+        const Part *part = &m->geometry.part[k];
+        for (int64_t i = 0; i < part->instance_count; i++) {
             Vec3 foot = transform_point(&part->instance[i], vec3(0, 0, 0));
-            Vec3 top = transform_point(&part->instance[i], vec3(0, 1, 0));
-            float ground = land_below(&m, foot), sunk = 0.06f * (top.y - foot.y);
-            assert_true(fabsf(foot.y + sunk - ground) < 0.005f);
-            float x = foot.x - params.position.x, z = foot.z - params.position.z;
-            coarse =
-                fmax(coarse,
-                     fabs((double)(height_field_at(m.field, x, z) - ground + params.position.y)));
-            float level = m.field->water[terrain_sample_at(m.field, x, z)];
-            assert_true(ground - params.position.y + tile_view_sinks(&m.view, x, z) > level);
+            Vec3 own = vec3_sub(foot, m->params.position);
+            float x = own.x - m->eye.x, z = own.z - m->eye.z;
+            bool there = own.x > 0.5f * m->params.size;
+            count += there == beyond && x * x + z * z < 1e6f;
         }
     }
-    print_message("%d trees; the coarse land is up to %.1f m off\n", (int)trees, coarse);
-    assert_true(trees > 1000 && coarse > 1.0);
-    drop(&m);
+    return count;
+}
+
+// The woods of the square are the same with those of its copies beside them; seen from its border
+// both sides are alike, tiles or not.
+static void woods_go_on_beyond_the_square(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        TerrainParams params = land_of_trees(0);
+        params.forest.count = 8000;
+        params.tiles.drawn = k > 0;
+        Made alone, all;
+        Vec3 eye = vec3(2000.0f, 300.0f, 200.0f);
+        make(&alone, &params, eye, 2);
+        params.forest.beyond = 1;
+        make(&all, &params, eye, 2);
+        assert_int_equal(alone.geometry.count, all.geometry.count);
+        for (int64_t i = 1; i < alone.geometry.count; i++) {
+            const Part *a = &alone.geometry.part[i], *b = &all.geometry.part[i];
+            bool woods = !a->is_water && a->mesh->face_count < 1000;
+            assert_true(woods ? b->instance_count > a->instance_count + 50
+                              : b->instance_count == a->instance_count);
+            if (woods) {
+                assert_memory_equal(a->instance, b->instance,
+                                    sizeof *a->instance * (size_t)a->instance_count);
+            }
+        }
+        int64_t near = trees_about(&all, false), far = trees_about(&all, true);
+        print_message("%d trees west of the border, %d east of it\n", (int)near, (int)far);
+        // 5 standard errors of the difference
+        assert_true(near > 300 && (near - far) * (near - far) < 25 * (near + far));
+        drop(&alone);
+        drop(&all);
+    }
 }
 
 // ---- forms whose tiles end at the square's border
@@ -548,6 +770,9 @@ static void threads_change_no_bit(void **state)
     for (int k = 0; k < 3; k++) { // rivers, a meander, a coast
         TerrainParams params = k == 0 ? land_of_rivers() : land_that_ends(k == 1 ? 0 : 3);
         params.forest.count = 2000;
+        params.forest.beyond = k == 1 ? 0 : 1;
+        params.rivers.fall_height = 2.0f;
+        params.rivers.fall_slope = 0.4f;
         Made one, three;
         make(&one, &params, vec3(300.0f, 200.0f, 500.0f), 1);
         make(&three, &params, vec3(300.0f, 200.0f, 500.0f), 3);
@@ -577,7 +802,9 @@ int main(void)
         cmocka_unit_test(lakes_end_at_drawn_shores),
         cmocka_unit_test(rivers_run_in_drawn_beds),
         cmocka_unit_test(trees_stand_on_drawn_land),
+        cmocka_unit_test(woods_go_on_beyond_the_square),
         cmocka_unit_test(water_falls_over_drawn_land),
+        cmocka_unit_test(falls_of_copies_are_the_squares),
         cmocka_unit_test(tiles_end_at_the_lands_own_samples),
         cmocka_unit_test(broad_water_ends_at_drawn_shores),
         cmocka_unit_test(threads_change_no_bit),

@@ -226,6 +226,12 @@ static const Case scenes[] = {
     {"objects: [{name: a, terrain: {resolution: 16, tiles: {count: 32, drawn: true}}}]\n",
      ":1:73: objects.a.terrain.tiles.drawn is true; that needs at most as many tiles a side as the "
      "terrain has cells, 16, not 32"},
+    {"objects: [{name: a, terrain: {beyond: 1, forest: {count: 9, beyond: 2}}}]\n",
+     ":1:69: objects.a.terrain.forest.beyond is 2, but the terrain's own beyond is 1; that must be "
+     "as much at least"},
+    {"objects: [{name: a, terrain: {form: delta, beyond: 1, forest: {count: 9, beyond: 1}}}]\n",
+     ":1:82: objects.a.terrain.forest.beyond is 1; around a delta there are no copies of the "
+     "square"},
     {"objects: [{name: a, terrain: {show: map, tiles: {count: 16, drawn: true}}}]\n",
      ":1:68: objects.a.terrain.tiles.drawn is true; a map (show: map or tree) is flat and is not "
      "drawn of tiles"},

@@ -6,10 +6,10 @@ bool scatter_geometry(const void *given, const Grown *grown, const Placing *plac
     (void)grown;
     const ScatteringParams *params = given;
     ThingPlaces places;
-    bool done = scatter_places_init(&places, params, placing->recipe, &placing->around, e);
-    int copies = scatter_copies(params, placing->recipe->surface);
-    int64_t settled = places.count / (1 + copies);
-    if (done && params->beyond > 0 && copies == 0) {
+    int64_t settled;
+    bool done =
+        scatter_places_init(&places, params, placing->recipe, &placing->around, &settled, e);
+    if (done && params->beyond > 0 && scatter_copies(params, placing->recipe->surface) == 0) {
         recipe_warn(placing->recipe, NULL,
                     "beyond is %d, but '%s' has no copies around it that things could stand on",
                     params->beyond, params->on);

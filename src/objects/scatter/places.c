@@ -4,6 +4,7 @@
 #include "base/noise.h"
 #include "base/random.h"
 #include "land/height_raster.h"
+#include "objects/scatter/ground.h"
 #include "objects/scatter/scatter.h"
 #include "shape/point_hash.h"
 
@@ -44,6 +45,7 @@ typedef struct Search {
     const HeightField *wet; // the land that tells where its water is; NULL = unknown, or by_depth
     bool by_depth;          // conditions on the water's depth decide
     int copies;             // of the surface, on which they stand, too
+    ScatterGround *ground;  // of a surface with copies in its mesh; else NULL
     uint64_t seed;
 } Search;
 
@@ -112,9 +114,25 @@ static bool may_be_near(const ScatteringParams *params, const Vec3 corner[3])
            (params->radius == 0.0f || distance - reach <= params->radius);
 }
 
-// Sums of the areas in which places are drawn for the surface's faces, 0 for those too far away.
-static double *sum_areas(const Mesh *mesh, const ScatteringParams *params, Error *e)
+// Where copies are in the mesh, they are no places of their own if things go on over them.
+static bool is_own(const Search *s, const Vec3 corner[3])
 {
+    const HeightField *land = s->land;
+    if (!s->ground || !land || s->copies == 0) {
+        return true;
+    }
+    Vec3 middle = vec3_scale(vec3_add(vec3_add(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
+    float x = (middle.x - land->origin.x) / land->cell.x;
+    float z = (middle.z - land->origin.y) / land->cell.y;
+    return x >= 0.0f && z >= 0.0f && x <= (float)(land->columns - 1) &&
+           z <= (float)(land->rows - 1);
+}
+
+// Sums of the areas in which places are drawn for the surface's faces, 0 for those too far away.
+static double *sum_areas(const Search *s, Error *e)
+{
+    const Mesh *mesh = s->surface->mesh;
+    const ScatteringParams *params = s->params;
     double *area = memory_alloc(mesh->face_count, sizeof *area, e), sum = 0.0;
     for (int64_t i = 0; area && i < mesh->face_count; i++) {
         Vec3 c[3] = {corner(mesh, i, 0), corner(mesh, i, 1), corner(mesh, i, 2)};
@@ -122,7 +140,7 @@ static double *sum_areas(const Mesh *mesh, const ScatteringParams *params, Error
         Disc disc = disc_in_face(params, c);
         double drawn = disc.smaller ? (double)(PI_F * disc.radius * disc.radius)
                                     : 0.5 * (double)vec3_length(across);
-        sum += may_be_near(params, c) ? drawn : 0.0;
+        sum += may_be_near(params, c) && is_own(s, c) ? drawn : 0.0;
         area[i] = sum;
     }
     return area;
@@ -190,11 +208,15 @@ static bool within(float value, const float range[2])
     return value >= range[0] && value <= range[1];
 }
 
-// Is the place under the water of the land itself, a lake or a river?
-static bool is_under_water(const HeightField *land, Vec3 p)
+// Is the place under the water of the land itself, a lake or a river? With copies in its mesh,
+// which the record of levels does not reach, under the water that is drawn.
+static bool is_under_water(const Search *s, const HeightField *land, Vec3 p)
 {
     if (!land || !land->water) {
         return false;
+    }
+    if (s->ground) {
+        return p.y < scatter_ground_water(s->ground, p);
     }
     float u = (p.x - land->origin.x) / land->cell.x, v = (p.z - land->origin.y) / land->cell.y;
     int64_t column = (int64_t)(clampf(u, 0.0f, (float)(land->columns - 1)) + 0.5f);
@@ -204,7 +226,7 @@ static bool is_under_water(const HeightField *land, Vec3 p)
 
 static bool covered(const Search *s, const HeightField *land, Vec3 p)
 {
-    return flood_covers(s->around->flood, p) || is_under_water(land, p);
+    return flood_covers(s->around->flood, p) || is_under_water(s, land, p);
 }
 
 // The surface of the water at a place under it, m.
@@ -223,6 +245,12 @@ static float surface_over(const Search *s, Vec3 p)
     return low;
 }
 
+static bool suits_water(const Search *s, Vec3 p)
+{
+    bool in_water = s->params->in_water;
+    return (s->by_depth && in_water) || covered(s, s->wet, p) == in_water;
+}
+
 static bool is_allowed(const Search *s, const Spot *spot)
 {
     const ScatteringParams *params = s->params;
@@ -231,7 +259,7 @@ static bool is_allowed(const Search *s, const Spot *spot)
     bool near = !s->surface || (distance >= params->inner &&
                                 (params->radius == 0.0f || distance <= params->radius));
     return near && within(slope, params->slope) && within(spot->p.y, params->altitude) &&
-           ((s->by_depth && params->in_water) || covered(s, s->wet, spot->p) == params->in_water) &&
+           suits_water(s, spot->p) &&
            random_unit(random_key(spot->key, STREAM_WHERE)) < where_share(&s->where, spot->p);
 }
 
@@ -342,10 +370,14 @@ int scatter_copies(const ScatteringParams *params, const ShapeSurface *surface)
 
 static bool search_begin(Search *s, const Recipe *recipe, Error *e)
 {
-    s->area = s->surface ? sum_areas(s->surface->mesh, s->params, e) : NULL;
+    const ShapeSurface *surface = s->surface;
+    bool grounded = surface && surface->copy_count > 0 && surface->copy->in_mesh;
+    s->ground = grounded ? scatter_ground_new(surface, s->copies > 0, e) : NULL;
+    s->area = surface ? sum_areas(s, e) : NULL;
     bool spaced = s->params->spacing > 0.0f;
     s->taken = spaced ? point_hash_new(s->params->spacing, e) : NULL;
-    return (s->area || !s->surface) && (s->taken || !spaced) && draw_maps(s, recipe, e);
+    return (s->ground || !grounded) && (s->area || !surface) && (s->taken || !spaced) &&
+           draw_maps(s, recipe, e);
 }
 
 // One of the thing's individuals.
@@ -362,24 +394,49 @@ static void add_place(ThingPlaces *places, const ScatteringParams *params, const
     places->place[places->count++] = stand(params, spot);
 }
 
-// The same place on the surface's copies, where another individual stands.
-static void add_beyond(ThingPlaces *places, const Search *s, const Spot *spot, int thing)
+// Lifts what floats to the water's surface.
+static void let_float(const Search *s, Spot *spot)
 {
-    for (int i = 0; i < s->copies; i++) {
-        const Transform *copy = &s->surface->copy[i].place;
-        uint64_t key = random_key(spot->key, STREAM_COPIES + (uint64_t)i);
-        // a mirror keeps lengths, so that it carries normals as it does directions
-        Spot there = {transform_point(copy, spot->p), transform_vector(copy, spot->normal), key};
-        add_place(places, s->params, &there, variant_of(s, thing, key));
+    if (s->params->afloat) {
+        spot->p.y = surface_over(s, spot->p);
+        spot->normal = vec3(0, 1, 0);
     }
 }
 
-static bool search(const Search *s, ThingPlaces *places, const Run *run, Error *e)
+// The same place on copy i of the surface. False: the copy has ground and water of its own, which
+// do not suit what stands there.
+static bool spot_on_copy(const Search *s, int i, const Spot *spot, Spot *there)
+{
+    const Transform *copy = &s->surface->copy[i].place;
+    uint64_t key = random_key(spot->key, STREAM_COPIES + (uint64_t)i);
+    // a mirror keeps lengths, so that it carries normals as it does directions
+    *there = (Spot){transform_point(copy, spot->p), transform_vector(copy, spot->normal), key};
+    if (!s->ground) {
+        return true;
+    }
+    if (!scatter_ground_find(s->ground, &there->p, &there->normal) || !suits_water(s, there->p)) {
+        return false;
+    }
+    let_float(s, there);
+    return true;
+}
+
+// On the surface's copies another individual stands.
+static void add_beyond(ThingPlaces *places, const Search *s, const Spot *spot, int thing)
+{
+    for (int i = 0; i < s->copies; i++) {
+        Spot there;
+        if (spot_on_copy(s, i, spot, &there)) {
+            add_place(places, s->params, &there, variant_of(s, thing, there.key));
+        }
+    }
+}
+
+static bool search(const Search *s, ThingPlaces *places, int64_t *settled, const Run *run, Error *e)
 {
     const ScatteringParams *params = s->params;
     uint64_t seed = random_key(s->seed, STREAM_PLACES);
-    int64_t settled = 0;
-    for (int64_t i = 0; i < TRIES * params->count && settled < params->count; i++) {
+    for (int64_t i = 0; i < TRIES * params->count && *settled < params->count; i++) {
         if (!run_goes_on(run, i, e)) {
             return false;
         }
@@ -395,21 +452,19 @@ static bool search(const Search *s, ThingPlaces *places, const Run *run, Error *
             return false;
         }
         if (taken) {
-            if (params->afloat) {
-                spot.p.y = surface_over(s, spot.p);
-                spot.normal = vec3(0, 1, 0);
-            }
+            let_float(s, &spot);
             add_place(places, params, &spot, variant_of(s, thing, key));
             add_beyond(places, s, &spot, thing);
-            settled++;
+            ++*settled;
         }
     }
     return true;
 }
 
 bool scatter_places_init(ThingPlaces *places, const ScatteringParams *params, const Recipe *recipe,
-                         const Surroundings *around, Error *e)
+                         const Surroundings *around, int64_t *settled, Error *e)
 {
+    *settled = 0;
     Search s = {
         .params = params, .around = around, .surface = recipe->surface, .seed = recipe->seed};
     s.land = recipe->land;
@@ -417,9 +472,10 @@ bool scatter_places_init(ThingPlaces *places, const ScatteringParams *params, co
     s.copies = scatter_copies(params, s.surface);
     s.wet = recipe->land && recipe->land->water && !s.by_depth ? recipe->land : NULL;
     bool done = thing_places_alloc(places, params->count * (1 + s.copies), e) &&
-                search_begin(&s, recipe, e) && search(&s, places, recipe->run, e);
+                search_begin(&s, recipe, e) && search(&s, places, settled, recipe->run, e);
     point_hash_free(s.taken);
     where_free(&s.where);
+    scatter_ground_free(s.ground);
     free(s.area);
     return done;
 }

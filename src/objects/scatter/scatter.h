@@ -37,11 +37,11 @@ int64_t scattering_most(const ScatteringParams *params);
 // Number of the surface's copies that are in the rings asked for; surface: NULL = the land.
 int scatter_copies(const ScatteringParams *params, const ShapeSurface *surface);
 
-// On the recipe's surface, or else on the land; outside of water or in it. Fewer than params->count
-// if there is no room for more, and as many again on each copy of the surface. Clear with
-// thing_places_free, also on failure.
+// On the recipe's surface, or else on the land; outside of water or in it. *settled: how many of
+// params->count found a place there; as many again stand on each copy of the surface, or fewer if
+// it has ground and water of its own. Clear with thing_places_free, also on failure.
 bool scatter_places_init(ThingPlaces *places, const ScatteringParams *params, const Recipe *recipe,
-                         const Surroundings *around, Error *e);
+                         const Surroundings *around, int64_t *settled, Error *e);
 
 // All copies: see recipe.h. Nothing grows, so grown is not used.
 bool scatter_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);

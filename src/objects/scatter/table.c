@@ -31,9 +31,12 @@ static const Key SCATTER_KEYS[] = {
     {KEY_OF(ScatteringParams, inner, "inner", KEY_FLOAT), .high = 1e6, .unit = "m",
      .doc = "Minimum distance from the centre."},
     {KEY_OF(ScatteringParams, beyond, "beyond", KEY_INT), .high = 8,
-     .doc = "Rings of the copies around a terrain (its key beyond) on which the copies stand, too, "
-            "as on the terrain itself: each of them as many again, 8 times in the first ring, 16 "
-            "times in the second. Not where the land is drawn of tiles."},
+     .doc =
+         "Rings of the copies around a terrain (its key beyond) on which the copies stand, too, "
+         "as on the terrain itself: each of them as many again, 8 times in the first ring, 16 "
+         "times in the second. Where the land is drawn of tiles, whose mesh holds the copies, too, "
+         "they are then sought in the square alone and stand on each copy's own ground, but not "
+         "in its water."},
     {KEY_OF(ScatteringParams, clumping, "clumping", KEY_FLOAT), .high = 1,
      .doc = "Distribution: 0 = uniform, 1 = each thing in patches of its own."},
     {KEY_OF(ScatteringParams, clump_size, "clump_size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,

@@ -8,18 +8,33 @@ static Transform copy_of(const DrawnLand *land)
     return terrain_copy(land->terrain->params, land->column, land->row);
 }
 
-static bool is_copy(const DrawnLand *land)
+bool drawn_is_copy(const DrawnLand *land)
 {
     return land->column != 0 || land->row != 0;
 }
 
+bool drawn_of_tiles(const DrawnLand *land)
+{
+    return land->mesh && !(drawn_is_copy(land) && terrain_tiles_end(land->terrain->params));
+}
+
+float drawn_away(const DrawnLand *land, Vec3 place)
+{
+    if (!land->mesh || !land->view->eye) {
+        return 0.0f;
+    }
+    Vec3 middle = land->terrain->params->position;
+    Vec3 there = drawn_in_scene(land, vec3_add(place, middle));
+    return vec3_distance(vec3_sub(there, middle), *land->view->eye);
+}
+
 float drawn_land_at(const DrawnLand *land, float x, float z)
 {
-    if (!land->mesh) {
+    if (!drawn_of_tiles(land)) {
         return height_mesh_finest_at(land->field, x, z);
     }
     Vec3 p = vec3(x, 0.0f, z), middle = land->terrain->params->position;
-    if (is_copy(land)) {
+    if (drawn_is_copy(land)) {
         Transform copy = copy_of(land);
         p = vec3_sub(transform_point(&copy, vec3_add(p, middle)), middle);
     }
@@ -37,11 +52,9 @@ static Vec3 sunk(const DrawnLand *land, Vec3 p)
 
 Vec3 drawn_in_scene(const DrawnLand *land, Vec3 place)
 {
-    if (!land->mesh) {
-        return place;
-    }
     Transform copy = copy_of(land);
-    return sunk(land, is_copy(land) ? transform_point(&copy, place) : place);
+    Vec3 p = drawn_is_copy(land) ? transform_point(&copy, place) : place;
+    return land->mesh ? sunk(land, p) : p;
 }
 
 bool drawn_move(const DrawnLand *land, Mesh *mesh, Error *e)
@@ -50,7 +63,7 @@ bool drawn_move(const DrawnLand *land, Mesh *mesh, Error *e)
     if (!land->mesh) {
         return true;
     }
-    if (is_copy(land) && !mesh_transform(mesh, &copy, e)) {
+    if (drawn_is_copy(land) && !mesh_transform(mesh, &copy, e)) {
         return false;
     }
     for (int64_t i = 0; i < mesh->vertex_count; i++) {

@@ -16,6 +16,16 @@ typedef struct DrawnLand {
     int column, row; // of the square's copy that is meant; 0, 0 = itself
 } DrawnLand;
 
+// Is a copy of the square meant, not itself?
+bool drawn_is_copy(const DrawnLand *land);
+
+// Is the land that is meant of tiles? Else it is the square's own mesh, or coarser copies of that.
+bool drawn_of_tiles(const DrawnLand *land);
+
+// m from the eye to a place of the square, or of its copy, in the terrain's own space; 0 if the
+// land is drawn alike near and far.
+float drawn_away(const DrawnLand *land, Vec3 place);
+
 // The height of the land that is drawn at a place of the square, or of its copy; on a flat Earth.
 float drawn_land_at(const DrawnLand *land, float x, float z);
 
@@ -36,7 +46,8 @@ bool terrain_add_flow(const Terrain *terrain, const HeightField *field, const Pl
                       Error *e);
 // A level surface for each lake that meets the land.
 bool terrain_add_lakes(const DrawnLand *land, const Placing *placing, Error *e);
-// The water that falls, a part for each fall. After terrain_lay_rivers.
+// The water that falls, a part for each fall; in copies the coarser the farther it is, and without
+// spray and white water for clouds. After terrain_lay_rivers.
 bool terrain_add_falls(const DrawnLand *land, const Placing *placing, Error *e);
 bool terrain_add_forest(const DrawnLand *land, const Placing *placing, Error *e);
 

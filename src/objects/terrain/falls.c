@@ -78,12 +78,15 @@ int terrain_fall_path(const FallPath *path, Vec3 start, Vec3 velocity, Vec3 *pla
 // ---- strands
 
 enum {
-    ROWS = 96,   // of a strand
-    SHEET = 28,  // rows of the sheet in which water leaves the lip
+    ROWS = 96, // of a strand, or in the distance at least
+    FEWEST_ROWS = 6,
+    SHEET = 28, // rows of the sheet in which water leaves the lip, and likewise
+    FEWEST_SHEET = 4,
     STEPS = 160, // of its path
     ACROSS = 72, // strands of a layer ...
     MANY = 26,   // ... of at most so many falls; of more falls fewer, but never fewer than
     FEWEST = 12,
+    FEWEST_FAR = 3, // in copies of the square
     LAYERS = 4,
     STRANDS = ACROSS * LAYERS
 };
@@ -97,6 +100,12 @@ enum {
     NUMBER_WHITE
 };
 
+// How finely a fall is drawn.
+typedef struct FallDetail {
+    int columns;     // strands of a layer; 0 = it is too small to be seen
+    int rows, sheet; // rows of a strand, and of the sheet
+} FallDetail;
+
 typedef struct FallMesher {
     const Terrain *terrain;
     const DrawnLand *land;
@@ -104,8 +113,8 @@ typedef struct FallMesher {
     float level; // m, of the pool
     Vec3 way, across;
     float half, speed, cover; // cover: how closely strands stand together at the foot, 0..1
-    int columns;              // strands of a layer
-    bool breaks;              // below the lip its strands become white water
+    FallDetail detail;
+    bool breaks; // below the lip its strands become white water
     Mesh *mesh;
     int64_t vertices, faces;
 } FallMesher;
@@ -130,7 +139,7 @@ static Vec3 strand_start(const FallMesher *f, float side)
 static float strand_side(const FallMesher *f, int strand)
 {
     float jitter = number_of(f, strand, NUMBER_SIDE);
-    return 2.0f * ((float)(strand % f->columns) + jitter) / (float)f->columns - 1.0f;
+    return 2.0f * ((float)(strand % f->detail.columns) + jitter) / (float)f->detail.columns - 1.0f;
 }
 
 // Rocks at the lip part the water into tongues: its share at a place across, about 1.
@@ -195,8 +204,8 @@ static float strand_width(const FallMesher *f, int strand)
 // is, torn below.
 static float strand_half(const FallMesher *f, int strand, float share)
 {
-    float spacing = 2.0f * f->half / (float)f->columns;
-    float from = strand < f->columns ? 0.0f : 0.75f * number_of(f, strand, NUMBER_START);
+    float spacing = 2.0f * f->half / (float)f->detail.columns;
+    float from = strand < f->detail.columns ? 0.0f : 0.75f * number_of(f, strand, NUMBER_START);
     float torn = lerpf(1.4f, lerpf(0.25f, 0.65f, f->cover), smoothstepf(0.0f, 0.6f, share));
     float own = strand_width(f, strand);
     float grown = smoothstepf(from, from + 0.12f, share);
@@ -245,8 +254,8 @@ static void add_strand(FallMesher *f, int strand)
     }
     float lip = f->terrain->flow[f->lip].foam;
     float white = lerpf(0.5f, 1.0f, number_of(f, strand, NUMBER_WHITE)); // some are still clear
-    for (int row = 0; row < ROWS; row++) {
-        float at = (float)row / (ROWS - 1) * (float)(count - 1);
+    for (int row = 0; row < f->detail.rows; row++) {
+        float at = (float)row / (float)(f->detail.rows - 1) * (float)(count - 1);
         int k = (int)at < count - 2 ? (int)at : count - 2;
         Vec3 p = vec3_lerp(place[k], place[k + 1], at - (float)k);
         float share = (place[0].y - p.y) / fmaxf(place[0].y - f->level, 1e-6f);
@@ -266,7 +275,7 @@ static void add_strand(FallMesher *f, int strand)
 
 static int sheet_columns(const FallMesher *f)
 {
-    return 2 * f->columns + 1;
+    return 2 * f->detail.columns + 1;
 }
 
 static float share_fallen(const FallMesher *f, const Vec3 *place, int k)
@@ -290,10 +299,11 @@ static float step_at(const FallMesher *f, const Vec3 *place, int count, float sh
 // as the river ends.
 static void add_sheet(FallMesher *f)
 {
-    uint32_t columns = (uint32_t)sheet_columns(f), first = (uint32_t)f->vertices;
+    uint32_t columns = (uint32_t)sheet_columns(f), rows = (uint32_t)f->detail.sheet;
+    uint32_t first = (uint32_t)f->vertices;
     uint64_t seed = random_key(f->terrain->water->id[f->lip], STRANDS + 4);
     float lip = f->terrain->flow[f->lip].foam;
-    f->vertices += (int64_t)columns * SHEET;
+    f->vertices += (int64_t)columns * rows;
     for (uint32_t column = 0; column < columns; column++) {
         float side = 2.0f * (float)column / (float)(columns - 1) - 1.0f, step;
         Vec3 place[STEPS];
@@ -301,8 +311,8 @@ static void add_sheet(FallMesher *f)
         float x = side * f->half, streak = noise_plane_fractal(2.7f * x, 0.7f, 3, seed);
         float ends = lerpf(0.05f, 0.2f, fminf(tongue(f, side), 1.0f)) * (1.0f + 0.5f * streak);
         float last = count > 1 ? step_at(f, place, count, ends) : 0.0f;
-        for (uint32_t row = 0; row < SHEET; row++) {
-            float along = (float)row / (SHEET - 1), at = along * last;
+        for (uint32_t row = 0; row < rows; row++) {
+            float along = (float)row / (float)(rows - 1), at = along * last;
             int k = count > 1 && (int)at > count - 2 ? count - 2 : (int)at;
             Vec3 p = count > 1 ? vec3_lerp(place[k], place[k + 1], at - (float)k)
                                : strand_start(f, 0.97f * side);
@@ -338,10 +348,10 @@ static Mesh *fall_mesh(FallMesher *f, const int32_t *main, Error *e)
     float thick = flow->discharge / (2.0f * f->half * sqrtf(2.0f * GRAVITY * height));
     f->cover = thick / (thick + 0.01f); // sheets of a centimetre are torn
     f->vertices = f->faces = 0;
-    int strands = f->columns * LAYERS;
-    int64_t columns = sheet_columns(f);
-    f->mesh = mesh_new(4, (int64_t)strands * ROWS * 3 + columns * SHEET,
-                       (int64_t)strands * (ROWS - 1) * 2 + (columns - 1) * (SHEET - 1),
+    int strands = f->detail.columns * LAYERS;
+    int64_t columns = sheet_columns(f), rows = f->detail.rows, sheet = f->detail.sheet;
+    f->mesh = mesh_new(4, strands * rows * 3 + columns * sheet,
+                       strands * (rows - 1) * 2 + (columns - 1) * (sheet - 1),
                        MESH_NORMAL | MESH_UV | MESH_FOAM, e);
     if (f->mesh) {
         add_sheet(f);
@@ -378,7 +388,7 @@ static SprayParcels *fall_spray(const FallMesher *f, Error *e)
                       .half = f->half,
                       .height = f->terrain->water->position[f->lip].y - f->level,
                       .cover = f->cover,
-                      .strands = f->columns * LAYERS,
+                      .strands = f->detail.columns * LAYERS,
                       .key = random_key(f->terrain->water->id[f->lip], STRANDS + 1)};
     bool done = spray;
     for (int strand = 0; done && strand < fall.strands; strand++) {
@@ -397,10 +407,10 @@ static SprayParcels *fall_spray(const FallMesher *f, Error *e)
 static SprayParcels *fall_water(const FallMesher *f, Error *e)
 {
     SprayParcels *water = memory_alloc_zero(1, sizeof *water, e);
-    int strands = f->columns * LAYERS;
+    int strands = f->detail.columns * LAYERS;
     WhiteWater white = {.across = f->across,
                         .way = f->way,
-                        .spacing = 2.0f * f->half / (float)f->columns,
+                        .spacing = 2.0f * f->half / (float)f->detail.columns,
                         .discharge = f->terrain->flow[f->lip].discharge,
                         .shutter = f->terrain->params->rivers.shutter,
                         .key = random_key(f->terrain->water->id[f->lip], STRANDS + 3)};
@@ -433,6 +443,43 @@ static int strands_across(const Terrain *terrain)
     return columns > FEWEST ? (int)columns : FEWEST;
 }
 
+static int clamped(float value, int least, int most)
+{
+    return value < (float)least ? least : value > (float)most ? most : (int)value;
+}
+
+// As finely as can be seen, in copies of the square; the square's own falls are all drawn alike.
+static FallDetail detail_of(const DrawnLand *land, int32_t lip, float height, int columns)
+{
+    const float seen = 0.0004f; // of the distance, m; see also objects/common/near_copies.h
+    const OutTree *water = land->terrain->water;
+    FallDetail full = {columns, ROWS, SHEET};
+    float fine = drawn_is_copy(land) ? seen * drawn_away(land, water->position[lip]) : 0.0f;
+    if (fine <= 0.0f) {
+        return full;
+    }
+    if (height < fine) {
+        return (FallDetail){0};
+    }
+    return (FallDetail){clamped(2.0f * water->radius[lip] / fine, FEWEST_FAR, full.columns),
+                        clamped(height / fine, FEWEST_ROWS, full.rows),
+                        clamped(height / fine, FEWEST_SHEET, full.sheet)};
+}
+
+// Adds a fall with what clouds may show of it. Those of copies have nothing for clouds, whose grids
+// would reach as far.
+static bool add_fall(FallMesher *f, const int32_t *main, const Placing *placing, Error *e)
+{
+    bool spray = placing->keep_spray && !drawn_is_copy(f->land);
+    f->breaks = placing->keep_water && !drawn_is_copy(f->land);
+    Part part = {.mesh = fall_mesh(f, main, e), .is_water = true};
+    if (part.mesh && ((spray && !(part.spray = fall_spray(f, e))) ||
+                      (f->breaks && !(part.water = fall_water(f, e))))) {
+        part_free_meshes(&part);
+    }
+    return placing_add(placing, part, TERRAIN_WATER, e);
+}
+
 bool terrain_add_falls(const DrawnLand *land, const Placing *placing, Error *e)
 {
     const Terrain *terrain = land->terrain;
@@ -444,21 +491,14 @@ bool terrain_add_falls(const DrawnLand *land, const Placing *placing, Error *e)
     int columns = strands_across(terrain);
     bool done = main;
     for (int64_t i = 0; done && i < water->count; i++) {
-        if (terrain->drop[i] <= 0.0f || water->position[i].y <= lake) {
+        float top = water->position[i].y;
+        if (terrain->drop[i] <= 0.0f || top <= lake) {
             continue;
         }
-        FallMesher f = {.terrain = terrain,
-                        .land = land,
-                        .lip = (int32_t)i,
-                        .columns = columns,
-                        .breaks = placing->keep_water};
+        FallMesher f = {.terrain = terrain, .land = land, .lip = (int32_t)i};
         f.level = fmaxf(water->position[water->parent[i]].y, lake);
-        Part part = {.mesh = fall_mesh(&f, main, e), .is_water = true};
-        if (part.mesh && ((placing->keep_spray && !(part.spray = fall_spray(&f, e))) ||
-                          (placing->keep_water && !(part.water = fall_water(&f, e))))) {
-            part_free_meshes(&part);
-        }
-        done = placing_add(placing, part, TERRAIN_WATER, e);
+        f.detail = detail_of(land, f.lip, top - f.level, columns);
+        done = f.detail.columns == 0 || add_fall(&f, main, placing, e);
     }
     free(main);
     return done;

@@ -6,10 +6,11 @@
 #include "objects/terrain/drawn.h"
 #include "objects/terrain/lakes.h"
 
+#include <math.h>
 #include <stdlib.h>
 
-// Of the forest; + i: form or tree i.
-enum { STREAM_FRAY = 5, STREAM_FORMS = 50, STREAM_TREES = 1000 };
+// Of the forest; + i: form, copy of the square or tree i.
+enum { STREAM_FRAY = 5, STREAM_FORMS = 50, STREAM_COPIES = 100, STREAM_TREES = 1000 };
 enum { STREAM_SLIM = 1, STREAM_BOUGHS = 100 }; // of a form; BOUGHS + i: bough i
 enum { STREAM_BOUGH_TURN = 1, STREAM_BOUGH_LENGTH = 2, STREAM_BOUGH_LIFT = 3 }; // of a bough
 // Of a tree.
@@ -81,7 +82,15 @@ typedef struct Planting {
     bool has_eye;
     float low, high, lake, least_upright;
     uint64_t seed;
+    uint64_t trees; // of the individuals
+    int64_t stride; // of the jittered grid, in places: more where only few trees are kept
 } Planting;
+
+// The trees of the square, then those of its copies.
+typedef struct Planted {
+    Transform *place; // owned
+    int64_t count, capacity;
+} Planted;
 
 // Height of the tree at a place; 0 = none.
 static float tree_size(const Planting *p, float x, float z, uint64_t key)
@@ -115,60 +124,135 @@ static float tree_size(const Planting *p, float x, float z, uint64_t key)
 // shore on tiles is finer than its samples.
 static bool find_foot(const Planting *p, float x, float z, float tall, Vec3 *foot)
 {
-    float height = p->land->mesh ? drawn_land_at(p->land, x, z) : height_field_at(p->field, x, z);
+    bool tiles = drawn_of_tiles(p->land);
+    float height = tiles ? drawn_land_at(p->land, x, z) : height_field_at(p->field, x, z);
     Vec3 place = vec3_add(vec3(x, height - 0.06f * tall, z), p->params->position);
     *foot = drawn_in_scene(p->land, place);
-    const float *water = p->land->mesh ? p->field->water : NULL;
+    const float *water = tiles ? p->field->water : NULL;
     return !water || height > water[terrain_sample_at(p->field, x, z)];
 }
 
-// Plants trees in a jittered grid. If there are more than `count`, far ones are left out first.
-static bool plant(const Planting *p, Transform **place, int64_t *count, const Run *run, Error *e)
+// From one place of the jittered grid to the next, m.
+static float spacing_of(const Planting *p)
 {
-    const TerrainForestParams *forest = &p->params->forest;
-    float spacing = 0.36f * forest->height, size = p->params->size;
+    return 0.36f * p->params->forest.height;
+}
+
+// The share of the grid's distance at which trees stand, this far from the eye; 1 or more: all do.
+static float share_at(const Planting *p, float away)
+{
+    float full = 0.32f * sqrtf((float)p->params->forest.count) * spacing_of(p);
+    return full / (away + 1.0f);
+}
+
+// m in plan from the eye to a place of the square, or of its copy.
+static float away_from_eye(const Planting *p, float x, float z)
+{
+    if (!p->has_eye) {
+        return 0.5f * p->params->size;
+    }
+    if (drawn_is_copy(p->land)) {
+        Vec3 middle = p->params->position;
+        Vec3 there = drawn_in_scene(p->land, vec3_add(vec3(x, 0.0f, z), middle));
+        x = there.x - middle.x;
+        z = there.z - middle.z;
+    }
+    return sqrtf((x - p->eye.x) * (x - p->eye.x) + (z - p->eye.z) * (z - p->eye.z));
+}
+
+static bool add_tree(Planted *trees, Vec3 foot, float tall, uint64_t key, Error *e)
+{
+    if (!memory_reserve(&trees->place, &trees->capacity, trees->count + 1, sizeof *trees->place,
+                        e)) {
+        return false;
+    }
+    float sine, cosine;
+    exact_sincos(random_range(random_key(key, STREAM_TREE_TURN), 0.0f, 2.0f * PI_F), &sine,
+                 &cosine);
+    float wide = tall * random_range(random_key(key, STREAM_TREE_WIDTH), 0.85f, 1.2f);
+    trees->place[trees->count++] =
+        transform_from_axes(vec3(wide * cosine, 0, -wide * sine), vec3(0, tall, 0),
+                            vec3(wide * sine, 0, wide * cosine), foot);
+    return true;
+}
+
+// Plants trees in a jittered grid over the square, or over its copy. If there are more than
+// `count`, far ones are left out first.
+static bool plant(const Planting *p, Planted *trees, const Run *run, Error *e)
+{
+    float spacing = spacing_of(p) * (float)p->stride, size = p->params->size;
     int64_t side = (int64_t)fminf(size / spacing, MOST_ROWS);
-    float full = 0.32f * sqrtf((float)forest->count) * spacing; // no tree is left out within
-    int64_t capacity = 0;
-    for (int64_t i = 0; i < side * side && *count < forest->count; i++) {
+    int64_t most = trees->count + p->params->forest.count;
+    float places = (float)(p->stride * p->stride); // for which one stands
+    for (int64_t i = 0; i < side * side && trees->count < most; i++) {
         if (!run_goes_on(run, i, e)) {
             return false;
         }
-        uint64_t key = random_key(p->seed, STREAM_TREES + (uint64_t)i);
+        uint64_t key = random_key(p->trees, STREAM_TREES + (uint64_t)i);
         float x = ((float)(i % side) + random_unit(random_key(key, STREAM_TREE_X))) * spacing -
                   0.5f * size;
         int64_t row = i / side;
         float z =
             ((float)row + random_unit(random_key(key, STREAM_TREE_Z))) * spacing - 0.5f * size;
-        float away = p->has_eye
-                         ? sqrtf((x - p->eye.x) * (x - p->eye.x) + (z - p->eye.z) * (z - p->eye.z))
-                         : 0.5f * size;
-        float share = full / (away + 1.0f);
-        if (share < 1.0f && random_unit(random_key(key, STREAM_TREE_FAR)) > share * share) {
+        float share = share_at(p, away_from_eye(p, x, z));
+        if (share < 1.0f &&
+            random_unit(random_key(key, STREAM_TREE_FAR)) > share * share * places) {
             continue;
         }
-        float tall = tree_size(p, x, z, key), sine, cosine;
+        float tall = tree_size(p, x, z, key);
         Vec3 foot;
-        if (tall <= 0.0f || !find_foot(p, x, z, tall, &foot)) {
-            continue;
-        }
-        if (!memory_reserve(place, &capacity, *count + 1, sizeof **place, e)) {
+        if (tall > 0.0f && find_foot(p, x, z, tall, &foot) &&
+            !add_tree(trees, foot, tall, key, e)) {
             return false;
         }
-        exact_sincos(random_range(random_key(key, STREAM_TREE_TURN), 0.0f, 2.0f * PI_F), &sine,
-                     &cosine);
-        float wide = tall * random_range(random_key(key, STREAM_TREE_WIDTH), 0.85f, 1.2f);
-        (*place)[(*count)++] =
-            transform_from_axes(vec3(wide * cosine, 0, -wide * sine), vec3(0, tall, 0),
-                                vec3(wide * sine, 0, wide * cosine), foot);
     }
     return true;
 }
 
-static bool add_form(const Transform *place, int64_t count, int form, uint64_t seed,
-                     const Placing *placing, Error *e)
+// m by which a number lies outside of a range about another.
+static float outside(float value, float middle, float half)
 {
-    int64_t own = (count - form + FORMS - 1) / FORMS;
+    return fmaxf(fabsf(value - middle) - half, 0.0f);
+}
+
+// The grid's stride at which no place of a copy of the square is to hold more than one tree.
+static int64_t stride_over(const Planting *p)
+{
+    float size = p->params->size, half = 0.5f * size, away = half;
+    if (p->has_eye) {
+        float x = outside(p->eye.x, (float)p->land->column * size, half);
+        float z = outside(p->eye.z, (float)p->land->row * size, half);
+        away = sqrtf(x * x + z * z);
+    }
+    float share = share_at(p, away);
+    return share < 1.0f ? (int64_t)(1.0f / share) : 1;
+}
+
+// Over the copies of the square, in as many rings as the forest is to go on.
+static bool plant_beyond(Planting p, Planted *trees, const Run *run, Error *e)
+{
+    enum { MOST = TERRAIN_MOST_BEYOND, SIDE = 2 * MOST + 1 };
+    int rings = p.params->forest.beyond, side = 2 * rings + 1;
+    DrawnLand copy = *p.land;
+    p.land = &copy;
+    bool done = true;
+    for (int i = 0; done && i < side * side; i++) {
+        copy.column = i % side - rings;
+        copy.row = i / side - rings;
+        if (terrain_has_copy(p.params, copy.column, copy.row)) {
+            int number = (copy.row + MOST) * SIDE + copy.column + MOST;
+            p.trees = random_key(p.seed, STREAM_COPIES + (uint64_t)number);
+            p.stride = stride_over(&p);
+            done = plant(&p, trees, run, e);
+        }
+    }
+    return done;
+}
+
+static bool add_form(const Planted *trees, int form, uint64_t seed, const Placing *placing,
+                     Error *e)
+{
+    int64_t own = (trees->count - form + FORMS - 1) / FORMS;
     if (own <= 0) {
         return true;
     }
@@ -180,7 +264,7 @@ static bool add_form(const Transform *place, int64_t count, int form, uint64_t s
         return false;
     }
     for (int64_t i = 0; i < own; i++) {
-        part.instance[i] = place[i * FORMS + form];
+        part.instance[i] = trees->place[i * FORMS + form];
     }
     return placing_add(placing, part, TERRAIN_FOLIAGE, e);
 }
@@ -196,7 +280,9 @@ bool terrain_add_forest(const DrawnLand *land, const Placing *placing, Error *e)
                   .params = params,
                   .field = field,
                   .has_eye = eye,
-                  .seed = random_key(terrain->seed, STREAM_FOREST)};
+                  .seed = random_key(terrain->seed, STREAM_FOREST),
+                  .stride = 1};
+    p.trees = p.seed;
     if (eye) {
         p.eye = vec3_sub(*eye, params->position);
     }
@@ -208,12 +294,12 @@ bool terrain_add_forest(const DrawnLand *land, const Placing *placing, Error *e)
     if (!(p.high > p.low)) {
         return true;
     }
-    Transform *place = NULL;
-    int64_t count = 0;
-    bool done = plant(&p, &place, &count, placing->recipe->run, e);
+    const Run *run = placing->recipe->run;
+    Planted trees = {0};
+    bool done = plant(&p, &trees, run, e) && plant_beyond(p, &trees, run, e);
     for (int form = 0; done && form < FORMS; form++) {
-        done = add_form(place, count, form, p.seed, placing, e);
+        done = add_form(&trees, form, p.seed, placing, e);
     }
-    free(place);
+    free(trees.place);
     return done;
 }

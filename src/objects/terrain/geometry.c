@@ -51,9 +51,11 @@ Transform terrain_copy(const TerrainParams *params, int column, int row)
     return transform_from_axes(vec3(x, 0, 0), vec3(0, 1, 0), vec3(0, 0, z), place);
 }
 
-// Has the square a copy there?
-static bool is_copied(const TerrainParams *params, int column, int row)
+bool terrain_has_copy(const TerrainParams *params, int column, int row)
 {
+    if (terrain_form(params)->beyond) {
+        return false;
+    }
     if (terrain_form(params)->repeat != REPEAT_SHORE) {
         return column != 0 || row != 0;
     }
@@ -69,17 +71,17 @@ int terrain_surface_copies(const void *given, SurfaceCopy *copy)
 {
     const TerrainParams *params = given;
     int count = 0;
-    bool copied = !terrain_form(params)->beyond && !params->tiles.drawn;
-    for (int ring = 1; copied && ring <= params->beyond; ring++) {
+    bool in_mesh = params->tiles.drawn && !terrain_tiles_end(params);
+    for (int ring = 1; ring <= params->beyond; ring++) {
         int side = 2 * ring + 1;
         for (int i = 0; i < side * side; i++) {
             int column = i % side - ring, row = i / side - ring;
             bool of_ring = abs(column) == ring || abs(row) == ring;
-            if (!of_ring || !is_copied(params, column, row)) {
+            if (!of_ring || !terrain_has_copy(params, column, row)) {
                 continue;
             }
             if (copy) {
-                copy[count] = (SurfaceCopy){terrain_copy(params, column, row), ring};
+                copy[count] = (SurfaceCopy){terrain_copy(params, column, row), ring, in_mesh};
             }
             count++;
         }
@@ -96,7 +98,7 @@ bool terrain_add_copies(Mesh *mesh, const TerrainParams *params, const Placing *
                  .is_water = role == TERRAIN_WATER};
     for (int i = 0; part.instance && i < side * side; i++) {
         int column = i % side - rings, row = i / side - rings;
-        if (is_copied(params, column, row)) {
+        if (terrain_has_copy(params, column, row)) {
             part.instance[part.instance_count++] = terrain_copy(params, column, row);
         }
     }

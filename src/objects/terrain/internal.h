@@ -427,7 +427,11 @@ static inline int64_t terrain_sample_at(const HeightField *field, float x, float
 // meet, unless the form repeats by itself.
 Transform terrain_copy(const TerrainParams *params, int column, int row);
 
-// Kind.surface_copies: those of the square's land; none where it is drawn of tiles.
+// Has the square a copy of itself there? Not where it is itself, nor if the form has surroundings
+// of its own.
+bool terrain_has_copy(const TerrainParams *params, int column, int row);
+
+// Kind.surface_copies: those of the square's land.
 int terrain_surface_copies(const void *params, SurfaceCopy *copy);
 // Adds copies of a part around the square. Takes ownership of the mesh.
 bool terrain_add_copies(Mesh *mesh, const TerrainParams *params, const Placing *placing, int role,

@@ -29,10 +29,16 @@ static int64_t attractors(const void *params)
     return count + count / 8;
 }
 
+// The conifers: beyond the square about 0.7 of `count` in each ring from a distance from the eye to
+// three times that, for they become fewer with its square.
+static double conifers(const TerrainParams *terrain)
+{
+    return terrain->forest.count * (1.0 + log2(2.0 * terrain->forest.beyond + 1.0));
+}
+
 static int64_t copies(const void *params)
 {
-    const TerrainParams *terrain = params;
-    return terrain->forest.count;
+    return (int64_t)conifers(params);
 }
 
 static int64_t samples(const void *params)
@@ -80,6 +86,7 @@ static void needs(const void *params, Needs *needs)
     };
     const TerrainParams *terrain = params;
     double rows = 2.8 * (double)(terrain->size / terrain->forest.height); // trees per side
+    double across = 2.0 * terrain->forest.beyond + 1.0;
     needs_add(needs, "resolution", (double)terrain->resolution * terrain->resolution, CELL_BYTES);
     if (terrain_evolves(terrain)) {
         double cells = terrain_evolved_cells(terrain);
@@ -116,7 +123,8 @@ static void needs(const void *params, Needs *needs)
     }
     needs_add(needs, terrain->form == TERRAIN_RIDGES ? "ridges.count" : "rivers.count",
               (double)attractors(params), RIVER_BYTES);
-    needs_add_copies(needs, "forest.count", fmin(terrain->forest.count, rows * rows), 1e9);
+    needs_add_copies(needs, "forest.count", fmin(conifers(terrain), across * across * rows * rows),
+                     1e9);
 }
 
 static bool tiles(const void *params, TileGrid *grid)

@@ -380,8 +380,10 @@ static const Key TILE_KEYS[] = {
             "all its cells, farther ones with half, a quarter, ... of them, down to 2, so that no "
             "cell is larger than 8 mesh_error of its distance. The land beyond the square is of "
             "tiles, too, and all of it lies on the Earth's curve. Tiles with rivers or lakes have "
-            "at least the terrain's own cells, with beds and shores of as fine ground. Rivers and "
-            "lakes go on beyond the square; waterfalls and the terrain's forest do not. Of forms "
+            "at least the terrain's own cells, with beds and shores of as fine ground. Rivers, "
+            "lakes and waterfalls go on beyond the square, these the coarser the farther and "
+            "without what clouds show of them; so do things scattered over the terrain and its "
+            "forest, if their keys `beyond` tell so. Of forms "
             "braided, meander, delta and coast the square alone is of tiles, on a flat Earth, and "
             "ends at the terrain's own samples, where the land around it begins as without tiles. "
             "Not as a map."},
@@ -496,7 +498,7 @@ static const Key TERRAIN_KEYS[] = {
             "coast and karst."},
     {KEY_OF(TerrainParams, tiles, "tiles", KEY_GROUP), .table = &TILE_TABLE,
      .doc = "Tiles of finer ground, for ramify grow --tile."},
-    {KEY_OF(TerrainParams, beyond, "beyond", KEY_INT), .high = 8,
+    {KEY_OF(TerrainParams, beyond, "beyond", KEY_INT), .high = TERRAIN_MOST_BEYOND,
      .doc = "Rings of mirrored copies around the square (of dunes: of copies as they are), so that "
             "the "
             "land goes on to the horizon; 0 = none. They are seen, not stood on."},
@@ -548,6 +550,19 @@ static bool check_tiles(const Mapping *mapping, const TerrainParams *terrain)
                         tiles->count, tiles->count, tiles->cells, resolution);
 }
 
+static bool check_forest(const Mapping *mapping, const TerrainParams *terrain)
+{
+    int rings = terrain->forest.beyond;
+    if (rings > 0 && terrain->form == TERRAIN_DELTA) {
+        return mapping_fail(mapping, "forest.beyond",
+                            " is %d; around a delta there are no copies of the square", rings);
+    }
+    return rings <= terrain->beyond ||
+           mapping_fail(mapping, "forest.beyond",
+                        " is %d, but the terrain's own beyond is %d; that must be as much at least",
+                        rings, terrain->beyond);
+}
+
 static bool check_terrain(const Mapping *mapping, void *params)
 {
     const TerrainParams *terrain = params;
@@ -590,7 +605,7 @@ static bool check_terrain(const Mapping *mapping, void *params)
         return mapping_fail(mapping, "evolution.cells",
                             " is %d; it must be a power of two, such as 1024", evolved);
     }
-    return check_tiles(mapping, terrain) &&
+    return check_tiles(mapping, terrain) && check_forest(mapping, terrain) &&
            ((cells & (cells - 1)) == 0 ||
             mapping_fail(mapping, "resolution", " is %d; it must be a power of two, such as 1024",
                          cells));

@@ -15,6 +15,11 @@ static const Key FOREST_KEYS[] = {
      .doc = "Steepest slope on which trees grow."},
     {KEY_OF(TerrainForestParams, clumping, "clumping", KEY_FLOAT), .high = 1,
      .doc = "Distribution: 0 = uniform, 1 = woods with clearings."},
+    {KEY_OF(TerrainForestParams, beyond, "beyond", KEY_INT), .high = TERRAIN_MOST_BEYOND,
+     .doc = "Rings of the copies around the square (the terrain's key beyond) on which conifers "
+            "stand, too, ever fewer as in the square: up to `count` more on each copy. Where the "
+            "land is drawn of tiles they stand on its triangles, else up to the meshing error of "
+            "copies off."},
     {0},
 };
 

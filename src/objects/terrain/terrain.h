@@ -143,12 +143,15 @@ typedef struct TerrainTerraceParams {
     float sheer;    // 0..1: 0 = steps are slopes, 1 = cliffs
 } TerrainTerraceParams;
 
+enum { TERRAIN_MOST_BEYOND = 8 }; // rings of copies
+
 typedef struct TerrainForestParams {
     int count;       // conifers; 0 = none
     float height;    // m, of the tallest
     float low, high; // altitudes between which they stand, shares of the relief
     float slope;     // degrees: none on steeper land
     float clumping;  // 0 = even, 1 = in woods with clearings
+    int beyond;      // rings of the square's copies on which they stand, too
 } TerrainForestParams;
 
 // Lakes at their spill levels.

@@ -250,8 +250,8 @@ static bool add_rivers(const DrawnLand *land, const Placing *placing, Error *e)
     return done;
 }
 
-// The water of the square, or of its copy; water falls in the square alone.
-static bool add_standing_and_flowing(const DrawnLand *land, const Placing *placing, Error *e)
+// The water of the square, or of its copy.
+static bool add_water_of(const DrawnLand *land, const Placing *placing, Error *e)
 {
     const Terrain *terrain = land->terrain;
     const TerrainParams *params = terrain->params;
@@ -265,7 +265,9 @@ static bool add_standing_and_flowing(const DrawnLand *land, const Placing *placi
     if (terrain_form(params)->water && !terrain_add_flow(terrain, land->field, placing, e)) {
         return false;
     }
-    return terrain_add_lakes(land, placing, e) && (!terrain->water || add_rivers(land, placing, e));
+    return terrain_add_lakes(land, placing, e) &&
+           (!terrain->water ||
+            (add_rivers(land, placing, e) && terrain_add_falls(land, placing, e)));
 }
 
 bool terrain_add_water(const DrawnLand *land, const Placing *placing, Error *e)
@@ -274,12 +276,10 @@ bool terrain_add_water(const DrawnLand *land, const Placing *placing, Error *e)
     bool copied = land->mesh && !terrain_tiles_end(terrain->params);
     int rings = copied ? terrain->params->beyond : 0;
     DrawnLand copy = *land;
-    bool done = add_standing_and_flowing(land, placing, e) &&
-                (!terrain->water || terrain_add_falls(land, placing, e));
+    bool done = add_water_of(land, placing, e);
     for (copy.row = -rings; done && copy.row <= rings; copy.row++) {
         for (copy.column = -rings; done && copy.column <= rings; copy.column++) {
-            done =
-                (copy.column == 0 && copy.row == 0) || add_standing_and_flowing(&copy, placing, e);
+            done = !drawn_is_copy(&copy) || add_water_of(&copy, placing, e);
         }
     }
     return done;
