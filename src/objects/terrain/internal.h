@@ -226,7 +226,7 @@ float terrain_drawn_out(float speed);
 // Widens the river at the feet of falls, where the water has dug a pool.
 void terrain_widen_pools(OutTree *water, const float *drop);
 
-// falls.c: speed of a river's water where it leaves a lip, m/s.
+// fall_path.c: speed of a river's water where it leaves a lip, m/s.
 float terrain_lip_speed(float discharge, float half);
 
 // What a strand of falling water meets.
