@@ -6,9 +6,11 @@
 #include <OpenImageIO/oiioversion.h>
 #include <embree3/rtcore_config.h>
 #include <gdal/gdal_version.h>
+#include <jconfig.h>
 #include <oneapi/tbb/version.h>
 #include <opensubdiv/version.h>
 #include <openvdb/version.h>
+#include <png.h>
 
 #define TEXT_OF(x) #x
 #define TEXT(x) TEXT_OF(x)
@@ -21,6 +23,10 @@ const char *libraries_compiled(void)
 {
     return "Embree " RTC_VERSION_STRING ", OpenSubdiv " OSD
            ", OpenVDB " OPENVDB_LIBRARY_VERSION_STRING ", OpenImageIO " OIIO
-           ", OpenEXR " OPENEXR_VERSION_STRING ", Imath " IMATH_VERSION_STRING
-           ", OpenColorIO " OCIO_VERSION ", GDAL " GDAL_RELEASE_NAME ", TBB " TBB_VERSION_STRING;
+           ", libpng " PNG_LIBPNG_VER_STRING
+           ", libjpeg-turbo " TEXT(LIBJPEG_TURBO_VERSION) ", OpenEXR " OPENEXR_VERSION_STRING
+                                                          ", Imath " IMATH_VERSION_STRING
+                                                          ", OpenColorIO " OCIO_VERSION
+                                                          ", GDAL " GDAL_RELEASE_NAME
+                                                          ", TBB " TBB_VERSION_STRING;
 }

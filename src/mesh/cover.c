@@ -156,25 +156,29 @@ static bool height_over(const Triangle *t, float x, float z, float beside, float
     return true;
 }
 
-// The cell at a place; -1 = it is beside all triangles.
-static int64_t cell_at(const Cover *cover, float x, float z)
+// Items of the cell at a place: from `first` to the one before `end`, none beside all triangles.
+typedef struct CellItems {
+    int64_t first, end;
+} CellItems;
+
+static CellItems items_at(const Cover *cover, float x, float z)
 {
     if (cover->count == 0 || x < cover->x || z < cover->z || x > cover->x + cover->width ||
         z > cover->z + cover->depth) {
-        return -1;
+        return (CellItems){0};
     }
     int column = cell_of(x, cover->x, cover->width, cover->side);
     int row = cell_of(z, cover->z, cover->depth, cover->side);
-    return (int64_t)row * cover->side + column;
+    int64_t cell = (int64_t)row * cover->side + column;
+    return (CellItems){cover->start[cell], cover->start[cell + 1]};
 }
 
 bool cover_hides(const Cover *cover, Vec3 p)
 {
-    int64_t cell = cell_at(cover, p.x, p.z);
+    CellItems items = items_at(cover, p.x, p.z);
     float nearest = INFINITY;
     bool hidden = false;
-    for (int64_t k = cell < 0 ? 0 : cover->start[cell]; cell >= 0 && k < cover->start[cell + 1];
-         k++) {
+    for (int64_t k = items.first; k < items.end; k++) {
         float height;
         bool up;
         if (height_over(&cover->triangle[cover->item[k]], p.x, p.z, 0.0f, &height, &up) &&
@@ -195,10 +199,9 @@ static Vec3 upward_normal(const Triangle *t)
 bool cover_top(const Cover *cover, float x, float z, float *height, Vec3 *normal)
 {
     const float beside = 1e-4f; // places on an edge are in one of its triangles at least
-    int64_t cell = cell_at(cover, x, z);
+    CellItems items = items_at(cover, x, z);
     const Triangle *top = NULL;
-    for (int64_t k = cell < 0 ? 0 : cover->start[cell]; cell >= 0 && k < cover->start[cell + 1];
-         k++) {
+    for (int64_t k = items.first; k < items.end; k++) {
         const Triangle *t = &cover->triangle[cover->item[k]];
         float own;
         bool up;

@@ -14,7 +14,8 @@
 #include <string.h>
 
 // Measured on x86-64 with Embree 3.12.
-#define PROGRAM_BYTES 3e7 // the program and its libraries; a reader of pictures has 1.2e8 more
+#define PROGRAM_BYTES 3e7       // the program and its libraries
+#define READER_BYTES 1.2e8      // those that read pictures
 #define PIXEL_WRITE_BYTES 195.0 // per pixel while denoising and writing
 
 static Needs needs_of(const Scene *scene, int only)
@@ -58,10 +59,21 @@ static double lamp_field_memory(const Scene *scene)
     return made && has_lamps(scene) ? (double)lamp_field_bytes() : 0.0;
 }
 
+// Does it have textures or a sky from a picture?
+static bool reads_pictures(const Scene *scene)
+{
+    bool reads = scene->sky.file;
+    for (int i = 0; !reads && i < scene->material_count; i++) {
+        reads = scene->materials[i].texture || scene->materials[i].alpha_texture;
+    }
+    return reads;
+}
+
 double scene_memory(const Scene *scene)
 {
-    return PROGRAM_BYTES + needs_of(scene, -1).bytes + scene_film_memory(scene) +
-           scene_cloud_memory(scene) + scene_mask_memory(scene) + lamp_field_memory(scene);
+    return PROGRAM_BYTES + (reads_pictures(scene) ? READER_BYTES : 0.0) +
+           needs_of(scene, -1).bytes + scene_film_memory(scene) + scene_cloud_memory(scene) +
+           scene_mask_memory(scene) + lamp_field_memory(scene);
 }
 
 // ---- a limit ----

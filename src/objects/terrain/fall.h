@@ -7,11 +7,15 @@
 
 #define FALL_GRAVITY 9.81f // m/s^2
 
-enum { FALL_STEPS = 160, FALL_LAYERS = 4 }; // of a strand's path; of strands behind each other
-
-// Kinds of random numbers of a fall, beside those of its strands.
 enum {
-    FALL_STREAM_TONGUES = 288,
+    FALL_STEPS = 160, // of a strand's path
+    FALL_LAYERS = 4,  // of strands behind each other
+    FALL_ACROSS = 72  // strands of a layer, at most
+};
+
+// Kinds of random numbers of a fall, after those of its strands.
+enum {
+    FALL_STREAM_TONGUES = FALL_ACROSS * FALL_LAYERS,
     FALL_STREAM_SPRAY,
     FALL_STREAM_CLOTS,
     FALL_STREAM_WATER,

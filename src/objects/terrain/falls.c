@@ -12,10 +12,9 @@ enum {
     FEWEST_ROWS = 6,
     SHEET = 28, // rows of the sheet in which water leaves the lip, and likewise
     FEWEST_SHEET = 4,
-    ACROSS = 72, // strands of a layer ...
-    MANY = 26,   // ... of at most so many falls; of more falls fewer, but never fewer than
-    FEWEST = 12,
-    FEWEST_FAR = 3 // in copies of the square
+    MANY = 26, // up to so many falls have FALL_ACROSS strands a layer, more falls fewer, but never
+    FEWEST = 12,   // fewer than this,
+    FEWEST_FAR = 3 // or in copies of the square this
 };
 
 static int strand_in_scene(const Fall *fall, int strand, Vec3 place[FALL_STEPS], float *step)
@@ -87,7 +86,7 @@ static int strands_across(const Terrain *terrain)
     for (int64_t i = 0; i < terrain->water->count; i++) {
         falls += terrain->drop[i] > 0.0f;
     }
-    int64_t columns = falls > MANY ? (int64_t)ACROSS * MANY / falls : ACROSS;
+    int64_t columns = falls > MANY ? (int64_t)FALL_ACROSS * MANY / falls : FALL_ACROSS;
     return columns > FEWEST ? (int)columns : FEWEST;
 }
 
