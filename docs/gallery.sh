@@ -243,9 +243,8 @@ if is_wanted figure-11; then
     sheet figure-11 5x1
 fi
 if is_wanted figure-12; then
-    for share in 0.2 0.45 0.7 1; do # nearer, sharper and brighter than the still
-        panel lightning-surface --set grow_to=$share --size 960x540 --samples 16 --set film.exposure=0.5 --set camera.fov=13.3 \
-            --set camera.target='[0, -0.005, 0]' --set camera.aperture=0.005 --set lights.1.radiance='[1.4, 1.5, 1.8]'
+    for share in 0.2 0.45 0.7 1; do
+        panel outtree-lightning --set grow_to=$share --size 960x540 --samples 32
     done
     sheet figure-12 2x2
 fi
