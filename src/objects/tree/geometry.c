@@ -81,6 +81,10 @@ bool tree_geometry(const void *given, const Grown *grown, const Placing *placing
     TreePlan plan;
     tree_plan_make(&plan, given, placing->recipe->seed);
     const TreeParams *params = &plan.params;
+    if (tree_is_dead(grown->tree, &params->hazards)) {
+        plan.params.leaves.max_count = 0;
+        plan.params.organ_count = 0;
+    }
     SkinParams skin = branches_skin(&params->skin);
     skin.sides = params->trunk.ribs > 0 ? RIBBED_SIDES : 0;
     bool marked = params->veteran.dead_limbs > 0.0f || params->light.healing > 0 ||

@@ -18,6 +18,7 @@ enum {
     STREAM_TOP = 9,
     STREAM_TOP_HEIGHT = 10,
     STREAM_DEATH = 11,
+    STREAM_BROKEN = 19,
     STREAM_NEIGHBOURS = 12,
     STREAM_PATCHES = 13,
     STREAM_BREAK = 14, // and up to SHADE: of a limb
@@ -39,6 +40,8 @@ enum { MOST_NEIGHBOURS = 3, NEIGHBOUR_STREAMS = 4, FORK_CHILD = 977 };
 #define STIFF_TOP 0.4f // of a limb's turn, at the top: young limbs have turned less
 #define SHADE_SPREAD 0.16f // of the height: over it dead limbs give way to living ones
 #define SAFE_TOP 0.88f     // of the height: limbs above are not lost
+#define DEAD_FOOT 0.03f    // of the height: a dead tree keeps its bark below
+#define LEAST_SNAG 0.5f    // of the height: what is left of a dead tree
 #define PATCH_HEIGHT 0.22f // of the height: of the patches in which limbs are lost
 #define PATCHY 0.6f        // how far patches, not chance, decide
 
@@ -57,6 +60,7 @@ typedef struct Fate {
     float fork;  // height of the fork, share; 0 = none
     float top;   // height from which the top is dead, share; 0 = it lives
     bool dead;
+    float broken; // height above which a dead tree has broken off, share
     Neighbour neighbour[MOST_NEIGHBOURS];
     int neighbours;
 } Fate;
@@ -118,7 +122,8 @@ static Fate draw_fate(const HazardParams *h, uint64_t seed)
                  .pitch = OWN_PITCH * h->angle * random_normal(random_key(seed, STREAM_PITCH)),
                  .bare = h->bare_below * draw(seed, STREAM_BARE),
                  .lost = clampf(2.0f * h->lost_limbs * draw(seed, STREAM_LOST), 0.0f, 0.95f),
-                 .dead = draw(seed, STREAM_DEATH) < h->dead};
+                 .dead = draw(seed, STREAM_DEATH) < h->dead,
+                 .broken = lerpf(LEAST_SNAG, 1.2f, draw(seed, STREAM_BROKEN))};
     if (draw(seed, STREAM_FORK) < h->forked_top) {
         fate.fork = lerpf(0.5f, 0.85f, draw(seed, STREAM_FORK_FORM));
     } else if (draw(seed, STREAM_TOP) < h->dead_top) {
@@ -380,10 +385,12 @@ static bool let_die(Hazard *z, Error *e)
     for (int64_t i = 0; keep && i < tree->count; i++) {
         const Limb *limb = z->limb_of[i] >= 0 ? &z->limb[z->limb_of[i]] : NULL;
         float height = share_of(z->params, limb ? limb->to : tree->position[i]);
-        float from = z->fate.dead ? SAFE_TOP : z->fate.top;
+        float from = z->fate.dead ? DEAD_FOOT : z->fate.top;
         bool top = from > 0.0f && height > from;
+        bool crown = tree->colony[i] == TREE_CROWN;
         bool dead = (limb && limb->dead) || (top && tree->parent[i] >= 0);
-        keep[i] = !dead || (tree->radius[i] >= thin && !(limb && is_broken_off(z, i)));
+        keep[i] = !dead || !crown || (tree->radius[i] >= thin && !(limb && is_broken_off(z, i)));
+        keep[i] = keep[i] && !(z->fate.dead && height > z->fate.broken);
         tree->colony[i] = dead ? TREE_SNAGS : tree->colony[i];
     }
     bool done = keep && out_tree_keep_nodes(tree, keep, e);
@@ -411,4 +418,13 @@ bool tree_befall(OutTree *tree, const TreeParams *params, uint64_t seed, Error *
     free(z.limb);
     free(z.limb_of);
     return done;
+}
+
+bool tree_is_dead(const OutTree *tree, const HazardParams *hazards)
+{
+    bool living = hazards->dead <= 0.0f;
+    for (int64_t i = 0; i < tree->count && !living; i++) {
+        living = tree->colony[i] == TREE_CROWN;
+    }
+    return !living;
 }

@@ -14,4 +14,7 @@ bool tree_has_hazards(const HazardParams *hazards);
 // params->position.
 bool tree_befall(OutTree *tree, const TreeParams *params, uint64_t seed, Error *e);
 
+// Is all of a grown tree dead, so that it bears neither leaves nor organs?
+bool tree_is_dead(const OutTree *tree, const HazardParams *hazards);
+
 #endif
