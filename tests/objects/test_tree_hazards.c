@@ -1,6 +1,7 @@
 // What befalls trees, beside the same trees without hazards: node by node, as ids do not change.
 #include "making.h"
-#include "objects/tree/tree.h"
+#include "objects/tree/by_light.h"
+#include "objects/tree/hazards.h"
 #include "testing.h"
 
 #include <math.h>
@@ -244,6 +245,29 @@ static void dead_trees_bear_no_leaves(void **state)
     out_tree_free(tree);
 }
 
+// Trees of a stand have the same fortunes.
+static void hazards_befall_a_stand(void **state)
+{
+    (void)state;
+    enum { COUNT = 3 };
+    TreeParams params[COUNT];
+    StandTree tree[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        params[i] = conifer();
+        params[i].hazards.dead = i == 1 ? 1.0f : 0.0f;
+        tree[i] = (StandTree){.params = &params[i], .foot = vec3(6.0f * (float)i, 0, 0), .seed = 7};
+    }
+    Error e = {0};
+    Run run = run_default();
+    Recipe recipe = {.seed = 1, .label = "stand", .run = &run};
+    assert_true(tree_grow_stand(tree, COUNT, NULL, 0, &recipe, &e));
+    for (int i = 0; i < COUNT; i++) {
+        assert_int_equal(tree_is_dead(tree[i].grown, &(HazardParams){.dead = 1.0f}), i == 1);
+        assert_true(out_tree_check(tree[i].grown, &e));
+        out_tree_free(tree[i].grown);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -253,6 +277,7 @@ int main(void)
         cmocka_unit_test(limbs_hang_and_leave_their_whorls),
         cmocka_unit_test(the_top_dies_or_forks),
         cmocka_unit_test(dead_trees_bear_no_leaves),
+        cmocka_unit_test(hazards_befall_a_stand),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
