@@ -31,7 +31,7 @@ enum {
 
 enum { MOST_NEIGHBOURS = 3, NEIGHBOUR_STREAMS = 4, FORK_CHILD = 977 };
 
-#define DEAD_TIPS 1.3f     // radii of a tip: thinner wood falls off dead limbs
+#define DEAD_TIPS 1.1f     // radii of a tip: thinner wood falls off dead limbs
 #define HELD_TO_DEATH 0.3f // share of its length: a low limb that is held back to less dies
 #define WIDEST 1.7f        // factor on all limbs, and the inverse of the least
 #define OWN_LENGTH 0.5f    // of the width's deviation: that of the limbs of one tree
@@ -123,7 +123,7 @@ static Fate draw_fate(const HazardParams *h, uint64_t seed)
                  .bare = h->bare_below * draw(seed, STREAM_BARE),
                  .lost = clampf(2.0f * h->lost_limbs * draw(seed, STREAM_LOST), 0.0f, 0.95f),
                  .dead = draw(seed, STREAM_DEATH) < h->dead,
-                 .broken = lerpf(LEAST_SNAG, 1.2f, draw(seed, STREAM_BROKEN))};
+                 .broken = lerpf(LEAST_SNAG, 1.1f, draw(seed, STREAM_BROKEN))};
     if (draw(seed, STREAM_FORK) < h->forked_top) {
         fate.fork = lerpf(0.5f, 0.85f, draw(seed, STREAM_FORK_FORM));
     } else if (draw(seed, STREAM_TOP) < h->dead_top) {
@@ -372,7 +372,7 @@ static bool is_broken_off(const Hazard *z, int64_t i)
     const OutTree *tree = z->tree;
     float left = draw(random_key(z->seed, tree->id[limb->node]), STREAM_BREAK);
     Vec3 from = vec3_sub(tree->position[i], limb->to);
-    float most = limb->factor * limb->reach * lerpf(0.1f, 0.95f, left);
+    float most = limb->factor * limb->reach * lerpf(0.2f, 1.1f, left);
     return vec3_dot(from, from) > most * most;
 }
 
