@@ -72,9 +72,13 @@ typedef struct Limb {
     float reach;        // m: from its base to its farthest node
     Vec3 from, to;      // m: its base as it grew, and where it is moved to
     float factor;       // on its length
-    float luck;         // those with the least are lost
     bool dead;
 } Limb;
+
+typedef struct Lot {
+    float luck; // those with the least are lost
+    int32_t limb;
+} Lot;
 
 // All that is done to one tree.
 typedef struct Hazard {
@@ -248,37 +252,37 @@ static float held_back(const Fate *fate, const Limb *limb, float crowding)
 
 static int by_luck(const void *a, const void *b)
 {
-    const Limb *p = *(Limb *const *)a, *q = *(Limb *const *)b;
+    const Lot *p = a, *q = b;
     if (p->luck != q->luck) {
         return p->luck < q->luck ? -1 : 1;
     }
-    return p->node < q->node ? -1 : (p->node > q->node);
+    return p->limb < q->limb ? -1 : (p->limb > q->limb);
 }
 
 // Kills the fate's share of the limbs below the top, in patches of height and side.
 static bool lose_limbs(Hazard *z, Error *e)
 {
-    Limb **order = memory_alloc(z->limbs + 1, sizeof *order, e);
+    Lot *lot = memory_alloc(z->limbs + 1, sizeof *lot, e);
     uint64_t patches = random_key(z->seed, STREAM_PATCHES);
     int64_t count = 0;
-    for (int64_t k = 0; order && k < z->limbs; k++) {
-        Limb *limb = &z->limb[k];
+    for (int64_t k = 0; lot && k < z->limbs; k++) {
+        const Limb *limb = &z->limb[k];
         Vec3 at = vec3(limb->sine, limb->height / PATCH_HEIGHT, limb->cosine);
-        limb->luck = PATCHY * noise_space(at, patches) +
-                     (1.0f - PATCHY) * random_unit(random_key(patches, z->tree->id[limb->node]));
+        float chance = random_unit(random_key(patches, z->tree->id[limb->node]));
         if (limb->height < SAFE_TOP) {
-            order[count++] = limb;
+            float luck = PATCHY * noise_space(at, patches) + (1.0f - PATCHY) * chance;
+            lot[count++] = (Lot){luck, (int32_t)k};
         }
     }
-    if (order) {
-        qsort(order, (size_t)count, sizeof *order, by_luck);
+    if (lot) {
+        qsort(lot, (size_t)count, sizeof *lot, by_luck);
     }
     int64_t lost = (int64_t)(z->fate.lost * (float)count + 0.5f);
-    for (int64_t k = 0; order && k < lost; k++) {
-        order[k]->dead = true;
+    for (int64_t k = 0; lot && k < lost; k++) {
+        z->limb[lot[k].limb].dead = true;
     }
-    free(order);
-    return order;
+    free(lot);
+    return lot;
 }
 
 // Moves limbs down the trunk, each by a part of the way to the whorl below its own.

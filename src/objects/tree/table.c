@@ -312,8 +312,8 @@ static const Key HAZARD_KEYS[] = {
          "so that a conifer's crown has no tiers."},
     {HAZARD_KEY(crowding, "crowding"), .high = 1,
      .doc = "How far neighbours, up to three of any height on sides of their own, hold limbs back "
-            "beside them: 0.7 = to a third of their length at most. Low limbs that are held "
-            "back more are dead. One tree in five has no neighbour."},
+            "beside them: each leaves at least 1 - crowding of their length. Low limbs that are "
+            "left less than 0.3 of it are dead. One tree in five has no neighbour."},
     {HAZARD_KEY(bare_below, "bare_below"), .high = 1,
      .doc = "Greatest height, as a fraction of the tree's, below which shade has killed all limbs: "
             "each tree has its own, from 0 to this."},
