@@ -55,7 +55,8 @@ static const Case scenes[] = {
      ":1:39: unknown key 'max_cuont' in objects.oak.tree.leaves; did you mean 'max_count'?"},
     {"objects: [{name: oak, tree: {transform: 5}}]\n",
      ":1:30: unknown key 'transform' in objects.oak.tree; known: species, position, height, age, "
-     "grown_by, light, seed, season, latitude, phenology, snow, hoar, veteran, trunk, crown, "
+     "grown_by, light, seed, season, latitude, phenology, snow, hoar, veteran, hazards, trunk, "
+     "crown, "
      "roots, "
      "radii, "
      "leaves, "

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "grow/room.h"
+#include "objects/tree/hazards.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -376,6 +377,21 @@ static bool plan_stand(StandTree *tree, int count, TreePlan *plan, StandPlant *p
     return done;
 }
 
+// Radii and hazards of the trees that have grown; on failure no tree is left.
+static bool finish_stand(StandTree *tree, int count, const TreePlan *plan, bool grown, Error *e)
+{
+    bool done = grown;
+    for (int i = 0; done && i < count; i++) {
+        tree_compute_radii(tree[i].grown, &plan[i].params, true);
+        done = tree_befall(tree[i].grown, &plan[i].params, tree[i].seed, e);
+    }
+    for (int i = 0; !done && i < count; i++) {
+        out_tree_free(tree[i].grown);
+        tree[i].grown = NULL;
+    }
+    return done;
+}
+
 bool tree_grow_stand(StandTree *tree, int count, const Vec3 *copy, int copies, const Recipe *recipe,
                      Error *e)
 {
@@ -386,10 +402,8 @@ bool tree_grow_stand(StandTree *tree, int count, const Vec3 *copy, int copies, c
     for (int i = 0; plant_of && i < count; i++) {
         out_tree_free(plant_of[i].start);
         tree[i].grown = plant_of[i].grown;
-        if (tree[i].grown) {
-            tree_compute_radii(tree[i].grown, &plan[i].params, true);
-        }
     }
+    done = plant_of && finish_stand(tree, count, plan, done, e);
     free(plant_of);
     free(plan);
     return done || recipe_fail(recipe, NULL, e);

@@ -1,6 +1,7 @@
 // From a grown tree to geometry: bark mesh, twigs as curves, leaves and organs as instances.
 #include "objects/tree/buttress.h"
 #include "objects/tree/defaults.h"
+#include "objects/tree/hazards.h"
 #include "objects/tree/ribs.h"
 #include "objects/tree/tree.h"
 #include "objects/tree/veteran.h"
@@ -80,9 +81,14 @@ bool tree_geometry(const void *given, const Grown *grown, const Placing *placing
     TreePlan plan;
     tree_plan_make(&plan, given, placing->recipe->seed);
     const TreeParams *params = &plan.params;
+    if (tree_is_dead(grown->tree, &params->hazards)) {
+        plan.params.leaves.max_count = 0;
+        plan.params.organ_count = 0;
+    }
     SkinParams skin = branches_skin(&params->skin);
     skin.sides = params->trunk.ribs > 0 ? RIBBED_SIDES : 0;
-    bool marked = params->veteran.dead_limbs > 0.0f || params->light.healing > 0;
+    bool marked = params->veteran.dead_limbs > 0.0f || params->light.healing > 0 ||
+                  tree_has_hazards(&params->hazards);
     bool veteran = plan.grown_by != GROWN_BY_ATTRACTORS && marked;
     int64_t first = placing->geometry->count;
     bool done = veteran ? add_veteran(grown->tree, &plan, &skin, placing, e)

@@ -297,6 +297,55 @@ static const Table VETERAN_TABLE = {
     .size = sizeof(VeteranParams),
     .keys = VETERAN_KEYS};
 
+#define HAZARD_KEY(MEMBER, KEY) KEY_OF(HazardParams, MEMBER, KEY, KEY_FLOAT)
+
+static const Key HAZARD_KEYS[] = {
+    {HAZARD_KEY(width, "width"), .high = 1,
+     .doc = "How much the width of crowns differs from tree to tree: standard deviation of its "
+            "natural logarithm; half as much from limb to limb. 0.2 = slender and stout ones."},
+    {HAZARD_KEY(angle, "angle"), .high = 45, .unit = "degrees",
+     .doc = "How much limbs hang or rise more than they grew: standard deviation, half of it from "
+            "tree to tree and half from limb to limb; less near the top."},
+    {HAZARD_KEY(loosening, "loosening"), .high = 1,
+     .doc =
+         "How far limbs leave the whorl that they grew in: 1 = anywhere down to the whorl below, "
+         "so that a conifer's crown has no tiers."},
+    {HAZARD_KEY(crowding, "crowding"), .high = 1,
+     .doc = "How far neighbours, up to three of any height on sides of their own, hold limbs back "
+            "beside them: each leaves at least 1 - crowding of their length. Low limbs that are "
+            "left less than 0.3 of it are dead. One tree in five has no neighbour."},
+    {HAZARD_KEY(bare_below, "bare_below"), .high = 1,
+     .doc = "Greatest height, as a fraction of the tree's, below which shade has killed all limbs: "
+            "each tree has its own, from 0 to this."},
+    {HAZARD_KEY(lost_limbs, "lost_limbs"), .high = 0.9,
+     .doc = "Mean share of the limbs that died and broke, in patches of height and side; a tree "
+            "has lost from none to twice as many."},
+    {HAZARD_KEY(forked_top, "forked_top"), .high = 1,
+     .doc = "Chance that the leader was lost and two rose in its place."},
+    {HAZARD_KEY(dead_top, "dead_top"), .high = 1,
+     .doc = "Chance that the top is dead, if it is not forked."},
+    {HAZARD_KEY(dead, "dead"), .high = 1,
+     .doc = "Chance that the whole tree is dead: a trunk with what is left of its limbs."},
+    {0},
+};
+
+static const Table HAZARD_TABLE = {
+    .name = "hazards",
+    .doc = "What befalls a tree that is grown by light, after its growth: by its seed, each "
+           "individual has a fortune of its own, so that a wood of few variants is not made of one "
+           "stamp. Chances and means are over all individuals.",
+    .example = "objects:\n"
+               "  - name: wood\n"
+               "    scatter:\n"
+               "      count: 200\n"
+               "      radius: 60\n"
+               "      variants: 8\n"
+               "      things:\n"
+               "        - tree: {species: norway_spruce, hazards: {width: 0.2, crowding: 0.7, "
+               "lost_limbs: 0.15, dead_top: 0.1}}\n",
+    .size = sizeof(HazardParams),
+    .keys = HAZARD_KEYS};
+
 static const EnumName GROWN_BY_NAMES[] = {{"auto", GROWN_BY_AUTO},
                                           {"light", GROWN_BY_LIGHT},
                                           {"attractors", GROWN_BY_ATTRACTORS},
@@ -337,6 +386,8 @@ static const Key TREE_KEYS[] = {
      .doc = "Hoar frost on twigs and branches."},
     {KEY_OF(TreeParams, veteran, "veteran", KEY_GROUP), .table = &VETERAN_TABLE,
      .doc = "Dead limbs, mistletoe, moss."},
+    {KEY_OF(TreeParams, hazards, "hazards", KEY_GROUP), .table = &HAZARD_TABLE,
+     .doc = "What befalls each tree in its life, by its seed."},
     {KEY_OF(TreeParams, trunk, "trunk", KEY_GROUP), .table = &TRUNK_TABLE,
      .doc = "The trunk. It grows straight up unless lean, a tropism of its growth or a field bends "
             "it."},

@@ -8,6 +8,7 @@
 #include "objects/tree/bole.h"
 #include "objects/tree/by_light.h"
 #include "objects/tree/defaults.h"
+#include "objects/tree/hazards.h"
 #include "objects/tree/limbs.h"
 #include "objects/tree/ribs.h"
 #include "objects/tree/veteran.h"
@@ -350,7 +351,8 @@ bool tree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e)
     }
     tree_compute_radii(whole->tree, tree, by_light);
     if (!tree_round_ends(whole->tree, tree, e) ||
-        (by_light && !tree_kill_limbs(whole->tree, tree, seed, e))) {
+        (by_light && (!tree_kill_limbs(whole->tree, tree, seed, e) ||
+                      !tree_befall(whole->tree, tree, seed, e)))) {
         return false;
     }
     return tree->roots.count <= 0 ||

@@ -80,6 +80,18 @@ typedef struct VeteranParams {
     int moss;         // tufts at the foot
 } VeteranParams;
 
+typedef struct HazardParams { // chances and means over all trees with these parameters
+    float width;              // standard deviation of the natural logarithm of the crowns' width
+    float angle;              // degrees: deviation by which limbs hang or rise
+    float loosening;          // 0..1: how far limbs leave their whorls
+    float crowding;           // 0..1: how far neighbours hold limbs back on their sides
+    float bare_below;         // 0..1: most height, share, below which limbs are dead
+    float lost_limbs;         // 0..1: mean share of limbs that broke off
+    float forked_top;         // 0..1: chance
+    float dead_top;           // 0..1: chance
+    float dead;               // 0..1: chance
+} HazardParams;
+
 typedef struct TreeParams {
     char *species; // NULL: what it names is applied before the file is loaded (scene/species.h)
     uint64_t seed; // 0 = the object's
@@ -102,6 +114,7 @@ typedef struct TreeParams {
     SnowParams snow;
     HoarParams hoar;
     VeteranParams veteran;
+    HazardParams hazards;
 } TreeParams;
 
 // Nodes of a main root's start, from inside the trunk's flare to where growth begins.
