@@ -54,6 +54,15 @@ static void add_kernels(const Fall *fall, float x, float z, int column, int row,
     }
 }
 
+// Can a kernel about a point of a square cover the place that lies at x, z from its corner?
+static bool reaches(const Fall *fall, float x, float z)
+{
+    const float spare = 1.001f; // for rounding
+    float along = fall->stretch * fall->stretch, fx = fall->x * fall->x, fz = fall->z * fall->z;
+    float reach_x = spare * sqrtf(along * fx + fz), reach_z = spare * sqrtf(along * fz + fx);
+    return x > -reach_x && x < STRETCH + reach_x && z > -reach_z && z < STRETCH + reach_z;
+}
+
 PatternOctaves pattern_fall_lines(const SurfacePoint *point, float width, int octaves, float gain,
                                   uint32_t seed)
 {
@@ -69,8 +78,10 @@ PatternOctaves pattern_fall_lines(const SurfacePoint *point, float width, int oc
         float x = point->object_position.x / width, z = point->object_position.z / width;
         int column = (int)floorf(x / STRETCH), row = (int)floorf(z / STRETCH);
         for (int k = 0; k < 9; k++) {
-            add_kernels(&fall, x, z, column + k % 3 - 1, row + k / 3 - 1,
-                        seed + 0x51ed27u * (uint32_t)i, &octave);
+            int c = column + k % 3 - 1, r = row + k / 3 - 1;
+            if (reaches(&fall, x - STRETCH * (float)c, z - STRETCH * (float)r)) {
+                add_kernels(&fall, x, z, c, r, seed + 0x51ed27u * (uint32_t)i, &octave);
+            }
         }
         float share = 0.5f * seen * height;
         sum.value += share * octave.value;
