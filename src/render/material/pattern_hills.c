@@ -76,7 +76,7 @@ static Vec3 grasses(const Pasture *p)
 static void add_mounds(const Pasture *p, float density, float size, uint32_t seed, Vec3 color,
                        Ground *g)
 {
-    Mounds m = pattern_mounds(p->point, clampf(density, 0.0f, 1.0f), size * p->scale, seed);
+    Mounds m = pattern_tussocks(p->point, clampf(density, 0.0f, 1.0f), size * p->scale, seed);
     g->color = vec3_lerp(g->color, vec3_scale(color, 0.7f + 0.6f * m.tone), m.share);
     g->slope = vec3_add(vec3_scale(g->slope, 1.0f - 0.6f * m.share), m.slope);
 }

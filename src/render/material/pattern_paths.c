@@ -27,7 +27,10 @@ Paths pattern_terracettes(const SurfacePoint *point, float rise, uint32_t seed)
     float upright = fabsf(surface_smooth_normal(point).y);
     float steep = sqrtf(fmaxf(1.0f - upright * upright, 0.01f));
     float apart = rise / steep; // m along the slope
-    PatternOctaves bend = pattern_octaves(point, 55.0f * rise, 5, 0.5f, 1.0f, seed);
+    if (upright > 0.985f) {
+        return (Paths){0};
+    }
+    PatternOctaves bend = pattern_octaves(point, 55.0f * rise, 4, 0.5f, 1.0f, seed);
     float most = smoothstepf(0.965f, 0.925f, upright + 0.02f * bend.value);
     if (most <= 0.0f) {
         return (Paths){0};
@@ -52,7 +55,7 @@ Paths pattern_tracks(const SurfacePoint *point, float width, uint32_t seed)
     Vec3 n = surface_smooth_normal(point), gradient;
     Vec3 p = vec3_scale(point->object_position, 1.0f / (260.0f * width));
     float bend = noise_solid(vec3(p.x, 0.5f, p.z), seed, &gradient);
-    PatternOctaves sway = pattern_octaves(point, 24.0f * width, 3, 0.45f, 1.0f, seed + 1);
+    PatternOctaves sway = pattern_octaves(point, 24.0f * width, 2, 0.45f, 1.0f, seed + 1);
     float level = point->object_position.y / apart + 2.6f * bend + 0.05f * sway.value;
     // per metre along the slope: of altitude and of the bend
     float uphill = -1.0f / fmaxf(fabsf(n.y), 0.3f) / apart;

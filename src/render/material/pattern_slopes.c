@@ -118,6 +118,37 @@ Mounds pattern_mounds(const SurfacePoint *point, float density, float size, uint
     return m;
 }
 
+Mounds pattern_tussocks(const SurfacePoint *point, float density, float size, uint32_t seed)
+{
+    const float least = 0.2f, most = 0.4f; // radius, in squares
+    const float mean = PI_F / 3.0f * (least * least + least * most + most * most);
+    Mounds m = {.share = mean * density, .tone = 0.5f};
+    float seen = pattern_detail(1.2f * size, point->footprint);
+    if (seen <= 0.0f || density <= 0.0f) {
+        return m;
+    }
+    // squares of another way for each size
+    float turn = (float)(seed & 15u) + 0.5f, cosine = cosf(turn) / size, sine = sinf(turn) / size;
+    Vec3 p = point->object_position;
+    float x = cosine * p.x - sine * p.z, z = sine * p.x + cosine * p.z;
+    float column = floorf(x), row = floorf(z);
+    uint32_t square = noise_square((int)column, (int)row, seed);
+    bool there = noise_unit(square, 5) < density;
+    float radius = lerpf(least, most, noise_unit(square, 6)), room = 1.0f - 2.0f * radius;
+    float dx = x - column - radius - room * noise_unit(square, 1);
+    float dz = z - row - radius - room * noise_unit(square, 2);
+    float away = sqrtf(dx * dx + dz * dz);
+    float soft = fmaxf(0.12f * radius, 0.6f * point->footprint / size);
+    float share = there ? 1.0f - smoothstepf(radius - soft, radius + soft, away) : 0.0f;
+    m.share = lerpf(m.share, share, seen);
+    m.tone = lerpf(0.5f, noise_unit(square, 7), seen);
+    if (share > 0.0f) { // half of a ball, flattened
+        float steep = -1.1f * seen * share / (radius * radius) * away * size;
+        m.slope = vec3_scale(vec3(cosine * dx + sine * dz, 0.0f, cosine * dz - sine * dx), steep);
+    }
+    return m;
+}
+
 // ---- covers
 
 // Broken blocks of one size: a plane and a tone each, and dark gaps between them.
