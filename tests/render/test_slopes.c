@@ -80,27 +80,55 @@ static void slopes_of_streaks_are_their_gradients(void **state)
 }
 
 // The share under mounds does not hang on the pixel, nor does their tone.
-static void far_mounds_are_their_mean(void **state)
+typedef Mounds (*MoundsOf)(const SurfacePoint *, float, float, uint32_t);
+
+static void far_ones_are_their_mean(MoundsOf of)
 {
-    (void)state;
     const float densities[2] = {0.3f, 0.9f};
     for (int k = 0; k < 2; k++) {
         double near = 0.0, square = 0.0;
         for (uint64_t i = 0; i < PLACES; i++) {
             SurfacePoint p = place(i, vec3(0, 1, 0), 0.01f), far = place(i, vec3(0, 1, 0), 50.0f);
-            Mounds a = pattern_mounds(&p, densities[k], 5.0f, 3);
-            Mounds b = pattern_mounds(&far, densities[k], 5.0f, 3);
+            Mounds a = of(&p, densities[k], 5.0f, 3);
+            Mounds b = of(&far, densities[k], 5.0f, 3);
             near += (double)a.share;
             square += (double)(a.share * a.share);
-            assert_true(b.share == pattern_mounds(&far, densities[k], 5.0f, 4).share);
+            assert_true(b.share == of(&far, densities[k], 5.0f, 4).share);
             assert_true(vec3_length(b.slope) == 0.0f && b.tone == 0.5f);
             assert_true(a.share >= 0.0f && a.share <= 1.0f && a.tone >= 0.0f && a.tone <= 1.0f);
         }
         SurfacePoint far = place(0, vec3(0, 1, 0), 50.0f);
         double mean = near / PLACES, error = sqrt((square / PLACES - mean * mean) / PLACES);
-        double told = (double)pattern_mounds(&far, densities[k], 5.0f, 3).share;
+        double told = (double)of(&far, densities[k], 5.0f, 3).share;
         assert_true(fabs(mean - told) < 3.5 * error + 0.02 * told);
     }
+}
+
+static void far_mounds_are_their_mean(void **state)
+{
+    (void)state;
+    far_ones_are_their_mean(pattern_mounds);
+    far_ones_are_their_mean(pattern_tussocks);
+}
+
+// Mounds lean outward: the relief falls away from the middle of each, and rises on the way to it.
+static void tussocks_slope_as_balls_do(void **state)
+{
+    (void)state;
+    int within = 0, inward = 0;
+    for (uint64_t i = 0; i < PLACES; i++) {
+        SurfacePoint p = place(i, vec3(0, 1, 0), 0.01f), q = p;
+        Mounds here = pattern_tussocks(&p, 1.0f, 5.0f, 3);
+        float steep = vec3_length(here.slope);
+        if (here.share < 1.0f || steep < 0.5f) {
+            continue;
+        }
+        within++;
+        // uphill the slope grows less, as toward a ball's top
+        q.object_position = vec3_madd(p.object_position, 0.05f / steep, here.slope);
+        inward += vec3_length(pattern_tussocks(&q, 1.0f, 5.0f, 3).slope) < steep;
+    }
+    assert_true(within > PLACES / 10 && inward > within - within / 50);
 }
 
 // A cover has about the same colour from near and from afar, and no detail that is finer than a
@@ -159,6 +187,7 @@ int main(void)
         cmocka_unit_test(streaks_run_down_the_slope),
         cmocka_unit_test(slopes_of_streaks_are_their_gradients),
         cmocka_unit_test(far_mounds_are_their_mean),
+        cmocka_unit_test(tussocks_slope_as_balls_do),
         cmocka_unit_test(covers_keep_their_mean),
         cmocka_unit_test(beds_tint_about_their_mean),
     };

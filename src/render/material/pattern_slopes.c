@@ -54,6 +54,15 @@ static void add_kernels(const Fall *fall, float x, float z, int column, int row,
     }
 }
 
+// Can a kernel about a point of a square cover the place that lies at x, z from its corner?
+static bool reaches(const Fall *fall, float x, float z)
+{
+    const float spare = 1.001f; // for rounding
+    float along = fall->stretch * fall->stretch, fx = fall->x * fall->x, fz = fall->z * fall->z;
+    float reach_x = spare * sqrtf(along * fx + fz), reach_z = spare * sqrtf(along * fz + fx);
+    return x > -reach_x && x < STRETCH + reach_x && z > -reach_z && z < STRETCH + reach_z;
+}
+
 PatternOctaves pattern_fall_lines(const SurfacePoint *point, float width, int octaves, float gain,
                                   uint32_t seed)
 {
@@ -69,8 +78,10 @@ PatternOctaves pattern_fall_lines(const SurfacePoint *point, float width, int oc
         float x = point->object_position.x / width, z = point->object_position.z / width;
         int column = (int)floorf(x / STRETCH), row = (int)floorf(z / STRETCH);
         for (int k = 0; k < 9; k++) {
-            add_kernels(&fall, x, z, column + k % 3 - 1, row + k / 3 - 1,
-                        seed + 0x51ed27u * (uint32_t)i, &octave);
+            int c = column + k % 3 - 1, r = row + k / 3 - 1;
+            if (reaches(&fall, x - STRETCH * (float)c, z - STRETCH * (float)r)) {
+                add_kernels(&fall, x, z, c, r, seed + 0x51ed27u * (uint32_t)i, &octave);
+            }
         }
         float share = 0.5f * seen * height;
         sum.value += share * octave.value;
@@ -103,6 +114,37 @@ Mounds pattern_mounds(const SurfacePoint *point, float density, float size, uint
     if (share > 0.0f) { // half of a ball, flattened
         float steep = 1.1f * seen * share * away / (radius * radius);
         m.slope = vec3_scale(vec3(cell.point.x, 0.0f, cell.point.z), steep);
+    }
+    return m;
+}
+
+Mounds pattern_tussocks(const SurfacePoint *point, float density, float size, uint32_t seed)
+{
+    const float least = 0.2f, most = 0.4f; // radius, in squares
+    const float mean = PI_F / 3.0f * (least * least + least * most + most * most);
+    Mounds m = {.share = mean * density, .tone = 0.5f};
+    float seen = pattern_detail(1.2f * size, point->footprint);
+    if (seen <= 0.0f || density <= 0.0f) {
+        return m;
+    }
+    // squares of another way for each size
+    float turn = (float)(seed & 15u) + 0.5f, cosine = cosf(turn) / size, sine = sinf(turn) / size;
+    Vec3 p = point->object_position;
+    float x = cosine * p.x - sine * p.z, z = sine * p.x + cosine * p.z;
+    float column = floorf(x), row = floorf(z);
+    uint32_t square = noise_square((int)column, (int)row, seed);
+    bool there = noise_unit(square, 5) < density;
+    float radius = lerpf(least, most, noise_unit(square, 6)), room = 1.0f - 2.0f * radius;
+    float dx = x - column - radius - room * noise_unit(square, 1);
+    float dz = z - row - radius - room * noise_unit(square, 2);
+    float away = sqrtf(dx * dx + dz * dz);
+    float soft = fmaxf(0.12f * radius, 0.6f * point->footprint / size);
+    float share = there ? 1.0f - smoothstepf(radius - soft, radius + soft, away) : 0.0f;
+    m.share = lerpf(m.share, share, seen);
+    m.tone = lerpf(0.5f, noise_unit(square, 7), seen);
+    if (share > 0.0f) { // half of a ball, flattened
+        float steep = -1.1f * seen * share / (radius * radius) * away * size;
+        m.slope = vec3_scale(vec3(cosine * dx + sine * dz, 0.0f, cosine * dz - sine * dx), steep);
     }
     return m;
 }
