@@ -57,7 +57,7 @@ static const Case scenes[] = {
      ":1:30: unknown key 'transform' in objects.oak.tree; known: species, position, height, age, "
      "grown_by, light, seed, season, latitude, phenology, snow, hoar, veteran, trunk, crown, "
      "roots, "
-     "radii, "
+     "elbows, radii, "
      "leaves, "
      "organs, skin"},
     {"{}", ":1:1: the scene has no 'objects'; this key is required: Objects of the scene."},
