@@ -155,7 +155,7 @@ static void add_random(SkinPlan *plan, const SkinChain *chain)
                                       point[i].radius,
                          .azimuth =
                              random_range(random_key(own, STREAM_KNOB_TURN), 0.0f, 2.0f * PI_F),
-                         .share = 0.12f + 0.6f * share * share};
+                         .share = 0.12f + 0.4f * share * share};
             add_knob(plan, chain, i, &knob);
         }
     }
