@@ -12,7 +12,6 @@ enum { STREAM_KNOB_PLACE = 1, STREAM_KNOB_TURN = 2, STREAM_KNOB_SHARE = 3 };
 
 #define KNOB_SPACING 3.2f  // radii between places of shed limbs
 #define STRAND_LENGTH 9.0f // radii that the strand below a limb as thick as its parent runs
-#define STRAND_END 1.2f    // and above it
 #define WAVE_LENGTH 15.0f  // radii, of what is random in the section
 #define WAVES_FROM 2       // orders of it
 #define WAVES_TO 5
@@ -24,6 +23,7 @@ enum { STREAM_KNOB_PLACE = 1, STREAM_KNOB_TURN = 2, STREAM_KNOB_SHARE = 3 };
 typedef struct Knob {
     float along, azimuth; // m; radians from the axis' side
     float share;          // its radius, of the chain's
+    float sine;           // of its angle to the chain: one that leaves along it makes no bulge
     bool hangs;           // it heads toward the chain's start, as a root: its strand, to the end
 } Knob;
 
@@ -81,16 +81,20 @@ static void add_knob(SkinPlan *plan, const SkinChain *chain, int64_t near, const
     float wide = (0.4f + 1.2f * share) * radius, root = sqrtf(share);
     Bump bulge = make_bump(knob->azimuth, BULGE_WIDTH + BULGE_WIDER * share);
     Bump rope = make_bump(knob->azimuth, STRAND_WIDTH + STRAND_WIDER * share);
-    float below = STRAND_LENGTH * root * radius, above = STRAND_END * radius;
+    // Wood gathers below a limb: where it leaves, its strand has ended.
+    float drop = (0.3f + 0.7f * share) * radius, middle = knob->along;
+    middle += knob->hangs ? drop : -drop;
+    float below = STRAND_LENGTH * root * radius, above = drop;
     for (int way = -1; way <= 1; way += 2) {
-        float run = (way < 0) != knob->hangs ? below : above, reach = fmaxf(wide, run);
+        float reach = fmaxf(wide, (way < 0) != knob->hangs ? below : above);
         for (int64_t i = way < 0 ? near : near + 1; i >= 0 && i < chain->samples; i += way) {
-            float off = point[i].along - knob->along;
-            if (fabsf(off) > reach) {
+            float off = point[i].along - middle;
+            if ((float)way * off > reach) {
                 break;
             }
-            float swell = params->swelling * share * hump(off / wide);
-            float strand = params->fluting * root * hump(off / run);
+            float swell = params->swelling * share * knob->sine * hump(off / wide);
+            float strand =
+                params->fluting * root * hump(off / ((off < 0.0f) != knob->hangs ? below : above));
             girth[i].round += BULGE_ROUND * swell;
             add_bump(&girth[i], &bulge, (1.0f - BULGE_ROUND) * swell);
             add_bump(&girth[i], &rope, strand);
@@ -117,6 +121,7 @@ static Knob child_knob(const SkinPlan *plan, int32_t number, const SkinChain *ch
     return (Knob){.along = child->attach + climb,
                   .azimuth = exact_atan2(y, x),
                   .share = radius / at.radius,
+                  .sine = vec3_length(vec3_cross(way, at.tangent)),
                   .hangs = vec3_dot(way, at.tangent) < -0.35f};
 }
 
@@ -155,6 +160,7 @@ static void add_random(SkinPlan *plan, const SkinChain *chain)
                                       point[i].radius,
                          .azimuth =
                              random_range(random_key(own, STREAM_KNOB_TURN), 0.0f, 2.0f * PI_F),
+                         .sine = 1.0f,
                          .share = 0.12f + 0.4f * share * share};
             add_knob(plan, chain, i, &knob);
         }
