@@ -79,6 +79,7 @@ static void add_knob(SkinPlan *plan, const SkinChain *chain, int64_t near, const
     SkinGirth *girth = plan->girth + chain->axis;
     float radius = point[near].radius, share = clampf(knob->share, 0.0f, 1.0f);
     float wide = (0.4f + 1.2f * share) * radius, root = sqrtf(share);
+    float stand = (0.4f + 0.6f * knob->sine) * root; // one along the chain is its own strand
     Bump bulge = make_bump(knob->azimuth, BULGE_WIDTH + BULGE_WIDER * share);
     Bump rope = make_bump(knob->azimuth, STRAND_WIDTH + STRAND_WIDER * share);
     // Wood gathers below a limb: where it leaves, its strand has ended.
@@ -94,7 +95,7 @@ static void add_knob(SkinPlan *plan, const SkinChain *chain, int64_t near, const
             }
             float swell = params->swelling * share * knob->sine * hump(off / wide);
             float strand =
-                params->fluting * root * hump(off / ((off < 0.0f) != knob->hangs ? below : above));
+                params->fluting * stand * hump(off / ((off < 0.0f) != knob->hangs ? below : above));
             girth[i].round += BULGE_ROUND * swell;
             add_bump(&girth[i], &bulge, (1.0f - BULGE_ROUND) * swell);
             add_bump(&girth[i], &rope, strand);
