@@ -10,6 +10,11 @@ enum { STREAM_KNOBS = 71, STREAM_WAVES = 72 };
 // Of a knob.
 enum { STREAM_KNOB_PLACE = 1, STREAM_KNOB_TURN = 2, STREAM_KNOB_SHARE = 3 };
 
+#define BULGE_ROUND 0.3f   // share of a swelling that is the same all around
+#define BULGE_WIDTH 0.35f  // radians, of the rest at the thinnest limb
+#define BULGE_WIDER 0.5f   // more at one as thick as its parent
+#define STRAND_WIDTH 0.27f // radians, of the thinnest limb's strand
+#define STRAND_WIDER 0.35f // more at that of one as thick as its parent
 #define KNOB_SPACING 3.2f  // radii between places of shed limbs
 #define STRAND_LENGTH 9.0f // radii that the strand below a limb as thick as its parent runs
 #define WAVE_LENGTH 15.0f  // radii, of what is random in the section
@@ -26,12 +31,6 @@ typedef struct Knob {
     float sine;           // of its angle to the chain: one that leaves along it makes no bulge
     bool hangs;           // it heads toward the chain's start, as a root: its strand, to the end
 } Knob;
-
-#define BULGE_ROUND 0.3f   // share of a swelling that is the same all around
-#define BULGE_WIDTH 0.35f  // radians, of the rest at the thinnest limb
-#define BULGE_WIDER 0.5f   // and how much more at one as thick as its parent
-#define STRAND_WIDTH 0.27f // radians, of the thinnest limb's strand; that of one as thick as its
-#define STRAND_WIDER 0.35f // parent is so much wider
 
 // A bump over the angle about the azimuth, a bell of this width (radians), without what is the same
 // all around.
