@@ -350,7 +350,7 @@ static const Key TREE_KEYS[] = {
          "How far limbs are straightened between elbows, as where a side branch took the lead: "
          "those half as thick as the trunk by up to half of so many trunk radii, thinner ones by "
          "more of their own radii, the trunk by less. 0 = the bends in which they grew; 0.6 to "
-         "1.5 = the angular limbs of oaks and old pines."},
+         "2 = the angular limbs of oaks and old pines."},
     {KEY_OF(TreeParams, radii, "radii", KEY_GROUP), .table = &radii_table,
      .doc = "Thickness of trunk, branches and roots."},
     {KEY_OF(TreeParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table,
