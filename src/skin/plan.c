@@ -1,6 +1,7 @@
 #include "skin/plan.h"
 
 #include "base/memory.h"
+#include "skin/girth.h"
 
 #include <stdlib.h>
 
@@ -33,7 +34,9 @@ static void find_exit(const SkinPlan *plan, SkinChain *chain)
     for (int64_t i = 0; i < chain->samples; i++) {
         float on_parent = skin_axis_nearest(plan, chain->parent, axis[i].position, &near);
         SkinPoint there = skin_axis_at(plan, chain->parent, on_parent);
-        float distance = vec3_distance(axis[i].position, there.position);
+        Vec3 apart = vec3_sub(axis[i].position, there.position);
+        float distance = vec3_length(apart);
+        there.radius *= skin_girth_toward(plan, chain->parent, &there, apart);
         float lean = clampf(fabsf(vec3_dot(axis[i].tangent, there.tangent)), 0.5f, 1.0f);
         if (!out && distance >= 0.95f * there.radius) {
             out = true;
@@ -74,7 +77,7 @@ static bool plan_from(SkinPlan *plan, int32_t root, int32_t **stack, int64_t *ca
     while (height > 0) {
         int32_t number = (*stack)[--height];
         // Each chain is on the stack at most once, and an axis adds at most one chain.
-        if (!skin_plan_axis(plan, number, e) ||
+        if (!skin_plan_axis(plan, number, e) || !skin_girth_make(plan, number, e) ||
             !memory_reserve(stack, capacity, plan->chain_count, sizeof(int32_t), e)) {
             return false;
         }
@@ -119,5 +122,6 @@ void skin_plan_clear(SkinPlan *plan)
     free(plan->chain_of);
     free(plan->place);
     free(plan->point);
+    free(plan->girth);
     free(plan->raw);
 }

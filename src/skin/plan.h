@@ -39,6 +39,15 @@ typedef struct SkinNode {
     float along, radius, birth;
 } SkinNode;
 
+// A section that is not round: orders 1 to 8 of its distance from the axis over the radius, by the
+// angle about the tangent from the axis' side. `round`, what is the same all around, is already in
+// the radius.
+enum { SKIN_GIRTH_ORDERS = 8 };
+typedef struct SkinGirth {
+    float round;
+    float cosine[SKIN_GIRTH_ORDERS], sine[SKIN_GIRTH_ORDERS];
+} SkinGirth;
+
 typedef struct SkinPlan {
     SkinChain *chain;
     int64_t chain_count, chain_capacity;
@@ -49,6 +58,8 @@ typedef struct SkinPlan {
     int32_t *place;    // per out-tree node: its index in `node`
     SkinPoint *point;
     int64_t point_count, point_capacity;
+    SkinGirth *girth; // of each point; NULL = all are round
+    int64_t girth_capacity;
     SkinNode *raw; // of the current chain
     int64_t raw_capacity;
     float least_radius;       // m: lower bound of all radii, against degenerate faces

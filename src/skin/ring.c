@@ -1,6 +1,7 @@
 #include "skin/ring.h"
 
 #include "base/exact_math.h"
+#include "skin/girth.h"
 
 void skin_ring_direction(int sides, int k, float *cosine, float *sine)
 {
@@ -26,7 +27,8 @@ void skin_ring_set_corners(SkinRing *ring)
     for (int k = 0; k < ring->sides; k++) {
         skin_ring_direction(ring->sides, k, &cosine, &sine);
         Vec3 out = vec3_madd(vec3_scale(ring->side, cosine), sine, across);
-        ring->corner[k] = vec3_madd(ring->centre, reach, out);
+        float own = ring->uneven ? skin_girth_reach(&ring->girth, cosine, sine) : 1.0f;
+        ring->corner[k] = vec3_madd(ring->centre, own * reach, out);
     }
 }
 

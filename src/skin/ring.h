@@ -2,7 +2,7 @@
 #ifndef RAMIFY_SKIN_RING_H
 #define RAMIFY_SKIN_RING_H
 
-#include "base/vec.h"
+#include "skin/plan.h"
 
 #include <stdint.h>
 
@@ -14,8 +14,10 @@ typedef struct SkinRing {
                     // corner k lies at 360 k / sides - 45 degrees from the side
     uint32_t *name; // their vertex indices in the cage, borrowed
     int sides;
-    float radius; // m, of the branch
-    float along;  // m from the start of the axis
+    float radius;    // m, of the branch
+    bool uneven;     // the section is not round:
+    SkinGirth girth; // by the angle from the side
+    float along;     // m from the start of the axis
     float birth;
 } SkinRing;
 

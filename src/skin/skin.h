@@ -22,8 +22,10 @@ typedef struct SkinParams {
     int sides;    // least number of sides of trunks' cages, for forms that need them; 0 = by radius
     bool blunt;   // curves keep the tree's radii instead of tapering to their tips
     float collar; // how much thicker a branch is where it leaves its parent, as a share; 0 = none
-    float wall;   // roots are cut open: thickness of their wall in radii; 0 = they are closed
-    int smoothing; // relaxation passes over the chains before resampling; typically 2
+    float swelling; // how far a branch swells at a limb as thick as itself, in radii; 0 = not
+    float fluting;  // how high the strand below such a limb stands out, in radii; 0 = round
+    float wall;     // roots are cut open: thickness of their wall in radii; 0 = they are closed
+    int smoothing;  // relaxation passes over the chains before resampling; typically 2
 } SkinParams;
 
 SkinParams skin_params_default(void);

@@ -3,6 +3,7 @@
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "skin/cage.h"
+#include "skin/girth.h"
 #include "skin/grid.h"
 #include "skin/lumen.h"
 #include "skin/mouth.h"
@@ -68,6 +69,11 @@ static void set_ring(const SkinPlan *plan, int32_t chain, float along, float pha
     ring->radius = at.radius * (1.0f + collar_at(plan, chain, along, at.radius));
     ring->along = along;
     ring->birth = at.birth;
+    ring->uneven = plan->girth;
+    if (ring->uneven) {
+        ring->girth = skin_girth_turned(skin_girth_at(plan, chain, along), phase);
+        skin_girth_limit(&ring->girth, ring->sides / 2);
+    }
     skin_ring_set_corners(ring);
 }
 

@@ -1,4 +1,5 @@
 #include "skin/cage.h"
+#include "skin/girth.h"
 #include "skin/skin.h"
 #include "testing.h"
 #include "tree_samples.h"
@@ -72,6 +73,8 @@ static void random_trees_have_closed_skins_that_look_outwards(void **state)
     SkinParams params = skin_params_default();
     for (int i = 0; i < 100; i++) {
         params.collar = i % 2 == 1 ? 0.4f : 0.0f;
+        params.swelling = i % 4 > 1 ? 1.0f : 0.0f;
+        params.fluting = i % 5 > 2 ? 0.5f : 0.0f;
         OutTree *tree = sample_walk((uint64_t)i, 5 + 4 * i, 0.02f * (float)(i % 10),
                                     0.1f * (float)(i % 12), i % 3 != 0);
         Mesh *cage = cage_of(tree, &params);
@@ -89,6 +92,8 @@ static void nasty_trees_have_closed_skins_that_look_outwards(void **state)
         SkinParams params = skin_params_default();
         params.ring_spacing = i < NASTY_COUNT ? 1.0f : 2.5f;
         params.smoothing = i < NASTY_COUNT ? 2 : 0;
+        params.swelling = i % 2 == 1 ? 0.7f : 0.0f;
+        params.fluting = i % 2 == 1 ? 0.4f : 0.0f;
         OutTree *tree = sample_nasty(i % NASTY_COUNT);
         Mesh *cage = cage_of(tree, &params);
         assert_closed(cage, count_roots(tree));
@@ -129,6 +134,86 @@ static void collars_thicken_where_branches_leave(void **state)
     }
     assert_true(near[1] > 1.1f * near[0]);
     assert_float_equal(far[1], far[0], 0.002f);
+}
+
+// A trunk of radius 0.4 with a limb toward +x at height 4, of other random numbers for each trunk.
+static OutTree *trunk_with_limb(uint64_t trunk)
+{
+    OutTree *tree = out_tree_new(NULL);
+    sample_line(tree, -1, vec3(0, 0, 0), vec3(0, 0.2f, 0), 40, 0.4f);
+    sample_line(tree, 20, vec3(0, 4, 0), vec3(0.1f, 0, 0), 20, 0.25f);
+    tree->id[0] = random_key(trunk, 3);
+    return tree;
+}
+
+// How far the trunk's surface reaches toward the limb at a height, in its radii there, and that
+// radius, m: means over many trunks.
+static float mean_reach(float swelling, float fluting, float height, float *radius)
+{
+    enum { TRUNKS = 60 };
+    float sum = 0.0f;
+    *radius = 0.0f;
+    for (int i = 0; i < TRUNKS; i++) {
+        OutTree *tree = trunk_with_limb((uint64_t)i);
+        SkinParams params = skin_params_default();
+        params.swelling = swelling;
+        params.fluting = fluting;
+        Run run = run_default();
+        SkinPlan plan;
+        assert_true(skin_plan_init(&plan, tree, &params, &run, NULL));
+        SkinPoint at = skin_axis_at(&plan, 0, height);
+        sum += skin_girth_toward(&plan, 0, &at, vec3(1, 0, 0)) / (float)TRUNKS;
+        *radius += at.radius / (float)TRUNKS;
+        skin_plan_clear(&plan);
+        out_tree_free(tree);
+    }
+    return sum;
+}
+
+static void trunks_swell_where_a_limb_leaves(void **state)
+{
+    (void)state;
+    float radius, far, still;
+    assert_float_equal(mean_reach(0.0f, 0.0f, 4.0f, &still), 1.0f, 1e-6f);
+    assert_float_equal(still, 0.4f, 1e-6f);
+    float here = mean_reach(0.5f, 0.0f, 3.75f, &radius); // below the limb
+    float above = mean_reach(0.5f, 0.0f, 6.0f, &far);
+    assert_true(here * radius > 1.15f * above * far); // 0.5 x 0.25 / 0.4 = 0.31 before limits
+    assert_true(radius > far && far < 1.06f * still);
+}
+
+// The strand below a limb stands out two radii below it, but not two radii above.
+static void strands_run_down_from_limbs(void **state)
+{
+    (void)state;
+    float radius;
+    float below = mean_reach(0.0f, 0.3f, 4.0f - 0.8f, &radius);
+    float above = mean_reach(0.0f, 0.3f, 4.0f + 0.8f, &radius);
+    assert_true(below > 1.1f);
+    assert_true(above < 1.05f && above > 0.95f);
+    assert_float_equal(radius, 0.4f, 1e-6f); // as thick on the whole
+}
+
+// Against the sum that defines it; a turned section is the same one seen from another angle.
+static void sections_are_fourier_sums(void **state)
+{
+    (void)state;
+    SkinGirth girth = {.round = 1.0f};
+    for (int n = 0; n < SKIN_GIRTH_ORDERS; n++) {
+        girth.cosine[n] = random_range((uint64_t)n, -0.02f, 0.02f);
+        girth.sine[n] = random_range((uint64_t)n + 50, -0.02f, 0.02f);
+    }
+    SkinGirth turned = skin_girth_turned(girth, 0.7f);
+    for (int k = 0; k < 20; k++) {
+        float angle = 0.31f * (float)k, wanted = 1.0f;
+        for (int n = 0; n < SKIN_GIRTH_ORDERS; n++) {
+            float way = (float)(n + 1) * angle;
+            wanted += girth.cosine[n] * cosf(way) + girth.sine[n] * sinf(way);
+        }
+        assert_float_equal(skin_girth_reach(&girth, cosf(angle), sinf(angle)), wanted, 1e-5f);
+        float from = angle - 0.7f;
+        assert_float_equal(skin_girth_reach(&turned, cosf(from), sinf(from)), wanted, 1e-5f);
+    }
 }
 
 // A tube that is cut open has a lip at its end, the inside of a wall of the wanted thickness, and a
@@ -376,6 +461,9 @@ int main(void)
         cmocka_unit_test(random_trees_have_closed_skins_that_look_outwards),
         cmocka_unit_test(nasty_trees_have_closed_skins_that_look_outwards),
         cmocka_unit_test(collars_thicken_where_branches_leave),
+        cmocka_unit_test(trunks_swell_where_a_limb_leaves),
+        cmocka_unit_test(strands_run_down_from_limbs),
+        cmocka_unit_test(sections_are_fourier_sums),
         cmocka_unit_test(cut_roots_are_hollow),
         cmocka_unit_test(finished_skins_are_closed_and_look_outwards),
         cmocka_unit_test(straight_tubes_have_the_asked_radius),

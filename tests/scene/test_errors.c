@@ -58,7 +58,7 @@ static const Case scenes[] = {
      "grown_by, light, seed, season, latitude, phenology, snow, hoar, veteran, hazards, trunk, "
      "crown, "
      "roots, "
-     "radii, "
+     "elbows, radii, "
      "leaves, "
      "organs, skin"},
     {"{}", ":1:1: the scene has no 'objects'; this key is required: Objects of the scene."},

@@ -39,6 +39,14 @@ static const Key SKIN_KEYS[] = {
      .doc =
          "Branch collars: how much thicker a branch is where it leaves its parent, as a share of "
          "its radius."},
+    {KEY_OF(SkinningParams, swelling, "swelling", KEY_FLOAT), .high = 1, .unit = "radii",
+     .doc = "How far a branch swells where a limb as thick as itself leaves it; less at thinner "
+            "ones, and at places where limbs may have been shed. 0 = not at all."},
+    {KEY_OF(SkinningParams, fluting, "fluting", KEY_FLOAT), .high = 0.5, .unit = "radii",
+     .doc = "How far the strand of wood that runs down from such a limb stands out of the "
+            "section, which is uneven between them, too. Bark is wider where the section is "
+            "flatter: 0.1 to 0.2 "
+            "for trunks close by, 0.4 far away. 0 = round branches."},
     {0},
 };
 

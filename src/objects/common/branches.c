@@ -11,6 +11,8 @@ SkinParams branches_skin(const SkinningParams *given)
     skin.min_radius = given->curve_radius;
     skin.levels = given->levels;
     skin.collar = given->collar;
+    skin.swelling = given->swelling;
+    skin.fluting = given->fluting;
     if (given->ring_spacing > 0.0f) {
         skin.ring_spacing = given->ring_spacing;
     }

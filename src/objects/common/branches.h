@@ -19,10 +19,11 @@ typedef struct RadiiParams {
 } RadiiParams;
 
 typedef struct SkinningParams {
-    float curve_radius; // m: thinner twigs are curves; 0 = all is mesh
-    int levels;         // subdivision, 0..4
-    float ring_spacing; // in radii
-    float collar;       // share by which a branch is thicker where it leaves its parent
+    float curve_radius;      // m: thinner twigs are curves; 0 = all is mesh
+    int levels;              // subdivision, 0..4
+    float ring_spacing;      // in radii
+    float collar;            // share by which a branch is thicker where it leaves its parent
+    float swelling, fluting; // in radii, see skin/skin.h
 } SkinningParams;
 
 extern const struct Table radii_table, skin_table;

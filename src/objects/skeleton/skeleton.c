@@ -165,10 +165,7 @@ float skeleton_tip_radius(const void *params, const OutTree *whole)
 static bool add_skin(const OutTree *tree, const SkeletonParams *params, int role,
                      const Placing *placing, Error *e)
 {
-    SkinParams skin = skin_params_default();
-    skin.levels = params->skin.levels;
-    skin.ring_spacing = params->skin.ring_spacing;
-    skin.min_radius = params->skin.curve_radius;
+    SkinParams skin = branches_skin(&params->skin);
     skin.smoothing = params->smoothing;
     Part thick = {.mesh = skin_tree(tree, &skin, placing->recipe->run, e)};
     if (!placing_add(placing, thick, role, e)) {

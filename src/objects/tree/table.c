@@ -396,6 +396,12 @@ static const Key TREE_KEYS[] = {
             "attractors in the crown's envelope."},
     {KEY_OF(TreeParams, roots, "roots", KEY_GROUP), .table = &ROOTS_TABLE,
      .doc = "The roots. They grow like the crown, but down and outward."},
+    {KEY_OF(TreeParams, elbows, "elbows", KEY_FLOAT), .high = 4, .unit = "trunk radii",
+     .doc =
+         "How far limbs are straightened between elbows, as where a side branch took the lead: "
+         "those half as thick as the trunk by up to half of so many trunk radii, thinner ones by "
+         "more of their own radii, the trunk by less. 0 = the bends in which they grew; 0.6 to "
+         "2 = the angular limbs of oaks and old pines."},
     {KEY_OF(TreeParams, radii, "radii", KEY_GROUP), .table = &radii_table,
      .doc = "Thickness of trunk, branches and roots."},
     {KEY_OF(TreeParams, leaves, "leaves", KEY_GROUP), .table = &leaves_table,

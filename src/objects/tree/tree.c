@@ -12,6 +12,7 @@
 #include "objects/tree/limbs.h"
 #include "objects/tree/ribs.h"
 #include "objects/tree/veteran.h"
+#include "outtree/elbows.h"
 #include "outtree/radii.h"
 
 #include <stdlib.h>
@@ -350,7 +351,8 @@ bool tree_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e)
         return false;
     }
     tree_compute_radii(whole->tree, tree, by_light);
-    if (!tree_round_ends(whole->tree, tree, e) ||
+    if (!out_tree_elbows(whole->tree, tree->elbows, tree->trunk.radius, e) ||
+        !tree_round_ends(whole->tree, tree, e) ||
         (by_light && (!tree_kill_limbs(whole->tree, tree, seed, e) ||
                       !tree_befall(whole->tree, tree, seed, e)))) {
         return false;

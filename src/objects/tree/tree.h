@@ -103,6 +103,7 @@ typedef struct TreeParams {
     TrunkParams trunk;
     CrownParams crown;
     RootParams roots;
+    float elbows; // trunk radii, see outtree/elbows.h; 0 = none
     RadiiParams radii;
     LeavesParams leaves;
     OrganGroup *organs;
