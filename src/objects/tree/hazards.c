@@ -4,66 +4,38 @@
 #include "base/memory.h"
 #include "base/noise.h"
 #include "base/random.h"
+#include "objects/tree/fate.h"
 
 #include <stdlib.h>
 
 // Of the tree's seed.
+enum { STREAM_HAZARDS = 61 };
+
+// Of the seed of a tree's hazards, beside those of fate.c: of its fork, and of its limbs.
 enum {
-    STREAM_HAZARDS = 61,
-    STREAM_WIDTH = 1,
-    STREAM_BARE = 2,
-    STREAM_LOST = 3,
-    STREAM_FORK = 4,
-    STREAM_FORK_FORM = 5, // .. + 3
-    STREAM_TOP = 9,
-    STREAM_TOP_HEIGHT = 10,
-    STREAM_DEATH = 11,
-    STREAM_BROKEN = 19,
-    STREAM_NEIGHBOURS = 12,
+    STREAM_FORK_SIDE = 6,
+    STREAM_FORK_TURN = 7,
+    STREAM_FORK_SIZE = 8,
     STREAM_PATCHES = 13,
-    STREAM_BREAK = 14, // and up to SHADE: of a limb
+    STREAM_BREAK = 14,
     STREAM_LENGTH = 15,
     STREAM_PITCH = 16,
     STREAM_LOOSE = 17,
-    STREAM_SHADE = 18,
-    STREAM_NEIGHBOUR = 20 // .. + NEIGHBOUR_STREAMS each
+    STREAM_SHADE = 18
 };
 
-enum { MOST_NEIGHBOURS = 3, NEIGHBOUR_STREAMS = 4, FORK_CHILD = 977 };
+enum { FORK_CHILD = 977 };
 
 #define DEAD_TIPS 1.1f     // radii of a tip: thinner wood falls off dead limbs
 #define HELD_TO_DEATH 0.3f // share of its length: a low limb that is held back to less dies
-#define WIDEST 1.7f        // factor on all limbs, and the inverse of the least
 #define OWN_LENGTH 0.5f    // of the width's deviation: that of the limbs of one tree
-#define OWN_PITCH 0.7f // of the angle's deviation: that of a tree, and that of each of its limbs
-#define STEEPEST 50.0f // degrees
-#define STIFF_TOP 0.4f // of a limb's turn, at the top: young limbs have turned less
+#define STEEPEST 50.0f     // degrees
+#define STIFF_TOP 0.4f     // of a limb's turn, at the top: young limbs have turned less
 #define SHADE_SPREAD 0.16f // of the height: over it dead limbs give way to living ones
 #define SAFE_TOP 0.88f     // of the height: limbs above are not lost
 #define DEAD_FOOT 0.03f    // of the height: a dead tree keeps its bark below
-#define LEAST_SNAG 0.5f    // of the height: what is left of a dead tree
 #define PATCH_HEIGHT 0.22f // of the height: of the patches in which limbs are lost
 #define PATCHY 0.6f        // how far patches, not chance, decide
-
-typedef struct Neighbour {
-    float sine, cosine; // of its azimuth
-    float top;          // its height, share of the tree's
-    float strength;     // 0..1
-} Neighbour;
-
-// What is in store for one tree.
-typedef struct Fate {
-    float width; // factor on the length of its limbs
-    float pitch; // degrees by which they hang
-    float bare;  // height (share) below which limbs are dead
-    float lost;  // share of its limbs
-    float fork;  // height of the fork, share; 0 = none
-    float top;   // height from which the top is dead, share; 0 = it lives
-    bool dead;
-    float broken; // height above which a dead tree has broken off, share
-    Neighbour neighbour[MOST_NEIGHBOURS];
-    int neighbours;
-} Fate;
 
 typedef struct Limb {
     int32_t node;       // its first
@@ -98,43 +70,9 @@ bool tree_has_hazards(const HazardParams *h)
            h->dead_top > 0.0f || h->dead > 0.0f;
 }
 
-// ---- fate
-
 static float draw(uint64_t seed, int stream)
 {
     return random_unit(random_key(seed, (uint64_t)stream));
-}
-
-static void draw_neighbours(Fate *fate, uint64_t seed)
-{
-    float many = draw(seed, STREAM_NEIGHBOURS);
-    fate->neighbours = many < 0.2f ? 0 : (many < 0.6f ? 1 : (many < 0.85f ? 2 : 3));
-    for (int i = 0; i < fate->neighbours; i++) {
-        int stream = STREAM_NEIGHBOUR + NEIGHBOUR_STREAMS * i;
-        Neighbour *one = &fate->neighbour[i];
-        exact_sincos(2.0f * PI_F * draw(seed, stream), &one->sine, &one->cosine);
-        one->top = lerpf(0.35f, 1.05f, draw(seed, stream + 1));
-        one->strength = lerpf(0.5f, 1.0f, draw(seed, stream + 2));
-    }
-}
-
-static Fate draw_fate(const HazardParams *h, uint64_t seed)
-{
-    float normal = random_normal(random_key(seed, STREAM_WIDTH));
-    float width = (float)exact_exp((double)(h->width * normal));
-    Fate fate = {.width = clampf(width, 1.0f / WIDEST, WIDEST),
-                 .pitch = OWN_PITCH * h->angle * random_normal(random_key(seed, STREAM_PITCH)),
-                 .bare = h->bare_below * draw(seed, STREAM_BARE),
-                 .lost = clampf(2.0f * h->lost_limbs * draw(seed, STREAM_LOST), 0.0f, 0.95f),
-                 .dead = draw(seed, STREAM_DEATH) < h->dead,
-                 .broken = lerpf(LEAST_SNAG, 1.1f, draw(seed, STREAM_BROKEN))};
-    if (draw(seed, STREAM_FORK) < h->forked_top) {
-        fate.fork = lerpf(0.5f, 0.85f, draw(seed, STREAM_FORK_FORM));
-    } else if (draw(seed, STREAM_TOP) < h->dead_top) {
-        fate.top = lerpf(0.72f, 0.93f, draw(seed, STREAM_TOP_HEIGHT));
-    }
-    draw_neighbours(&fate, seed);
-    return fate;
 }
 
 // ---- a forked top
@@ -177,9 +115,9 @@ static bool fork_top(Hazard *z, Error *e)
         return true;
     }
     float side_sine, side_cosine, sine, cosine;
-    exact_sincos(2.0f * PI_F * draw(z->seed, STREAM_FORK_FORM + 1), &side_sine, &side_cosine);
-    exact_sincos(lerpf(1.5f, 2.5f, draw(z->seed, STREAM_FORK_FORM + 2)), &sine, &cosine);
-    float size = lerpf(0.7f, 1.0f, draw(z->seed, STREAM_FORK_FORM + 3));
+    exact_sincos(2.0f * PI_F * draw(z->seed, STREAM_FORK_SIDE), &side_sine, &side_cosine);
+    exact_sincos(lerpf(1.5f, 2.5f, draw(z->seed, STREAM_FORK_TURN)), &sine, &cosine);
+    float size = lerpf(0.7f, 1.0f, draw(z->seed, STREAM_FORK_SIZE));
     float spread = 0.035f * z->params->height * size;
     Vec3 way = vec3(side_sine, 0.0f, side_cosine), base = tree->position[below];
     int32_t *copy = memory_alloc(count, sizeof *copy, e);
@@ -201,8 +139,9 @@ static bool fork_top(Hazard *z, Error *e)
         tree->position[i] = aside(tree->position[i], base, way, spread);
         copy[i] = (int32_t)made;
     }
+    bool done = copy;
     free(copy);
-    return copy;
+    return done;
 }
 
 // ---- limbs
@@ -281,8 +220,9 @@ static bool lose_limbs(Hazard *z, Error *e)
     for (int64_t k = 0; lot && k < lost; k++) {
         z->limb[lot[k].limb].dead = true;
     }
+    bool done = lot;
     free(lot);
-    return lot;
+    return done;
 }
 
 // Moves limbs down the trunk, each by a part of the way to the whorl below its own.
@@ -310,8 +250,9 @@ static bool loosen_whorls(Hazard *z, Error *e)
         limb->to = tree->position[at];
         limb->height = share_of(z->params, limb->to);
     }
+    bool done = borne;
     free(borne);
-    return borne;
+    return done;
 }
 
 static void shape_limb(const Hazard *z, Limb *limb)
@@ -330,7 +271,8 @@ static void shape_limb(const Hazard *z, Limb *limb)
 static float pitch_of(const Hazard *z, const Limb *limb)
 {
     uint64_t key = random_key(z->seed, z->tree->id[limb->node]);
-    float own = OWN_PITCH * z->params->hazards.angle * random_normal(random_key(key, STREAM_PITCH));
+    float own =
+        FATE_OWN_PITCH * z->params->hazards.angle * random_normal(random_key(key, STREAM_PITCH));
     float degrees = (z->fate.pitch + own) * lerpf(1.0f, STIFF_TOP, limb->height);
     return clampf(degrees, -STEEPEST, STEEPEST);
 }
@@ -408,7 +350,7 @@ bool tree_befall(OutTree *tree, const TreeParams *params, uint64_t seed, Error *
         return true;
     }
     Hazard z = {.tree = tree, .params = params, .seed = random_key(seed, STREAM_HAZARDS)};
-    z.fate = draw_fate(&params->hazards, z.seed);
+    z.fate = fate_draw(&params->hazards, z.seed);
     if (!fork_top(&z, e)) {
         return false;
     }
