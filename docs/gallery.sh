@@ -244,7 +244,7 @@ if is_wanted figure-11; then
 fi
 if is_wanted figure-12; then
     for share in 0.2 0.45 0.7 1; do
-        panel lightning-hare --set grow_to=$share --size 960x540 --samples 32
+        panel lightning-hare --set grow_to=$share --size 960x540 --samples 24
     done
     sheet figure-12 2x2
 fi
