@@ -122,10 +122,12 @@ void pattern_hills(const Material *m, const SurfacePoint *point, PatternShade *s
                  smoothstepf(0.35f, 0.6f, p.sward.value - 0.2f * p.broad.value);
     Paths steps = pattern_terracettes(point, 0.8f * scale, SEED_STEPS);
     Paths tracks = pattern_tracks(point, 0.5f * scale, SEED_PATHS);
-    float bare = fmaxf(0.75f * scar, 0.5f * fmaxf(steps.share, tracks.share));
+    // Treads are half overgrown, and more so in places: regular dark lines would be ploughland.
+    float trodden = 0.16f + 0.14f * clampf(p.sward.value - p.broad.value, -1.0f, 1.0f);
+    float bare = fmaxf(0.75f * scar, fmaxf(trodden * steps.share, 0.5f * tracks.share));
     g.color = vec3_lerp(g.color, soil, bare);
-    g.color = vec3_scale(g.color, 1.0f - 0.32f * steps.edge);
-    g.slope = vec3_add(vec3_scale(g.slope, 1.0f - 0.5f * bare), steps.slope);
+    g.color = vec3_scale(g.color, 1.0f - trodden * steps.edge);
+    g.slope = vec3_madd(vec3_scale(g.slope, 1.0f - 0.5f * bare), 0.4f, steps.slope);
     g.slope = vec3_scale(g.slope, m->pattern_depth);
     g = pattern_shore(point, vec3(0.25f, 0.23f, 0.20f), 1.0f, g);
     shade->color = g.color;
