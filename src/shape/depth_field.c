@@ -144,6 +144,14 @@ static bool solve(DepthField *f, Error *e)
     return true;
 }
 
+// From a node at this distance, how many ahead are no deeper than what is found: an exact distance
+// changes by no more than the way.
+static int nodes_no_deeper(const DepthField *f, float distance)
+{
+    float way = 0.999f * (f->deepest + distance); // less, for rounding
+    return envelope_is_exact(f->envelope) ? (int)fminf(way / f->spacing, (float)CELLS) : 0;
+}
+
 static void find_deepest(DepthField *f)
 {
     for (int x = 0; x < f->size[0]; x++) {
@@ -151,6 +159,7 @@ static void find_deepest(DepthField *f)
             for (int z = 0; z < f->size[2]; z++) {
                 float d = envelope_distance(f->envelope, node_position(f, x, y, z));
                 f->deepest = fmaxf(f->deepest, -d);
+                z += nodes_no_deeper(f, d);
             }
         }
     }
