@@ -1,4 +1,4 @@
-// Priority queue of numbered items, lowest first, ties by number: a binary heap.
+// Priority queue of numbered items, lowest first, ties by number: a heap.
 #ifndef RAMIFY_BASE_LOWEST_QUEUE_H
 #define RAMIFY_BASE_LOWEST_QUEUE_H
 

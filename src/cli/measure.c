@@ -142,6 +142,7 @@ static bool find_values(const RamifyScene *scene, const Subject *subjects, int c
     return true;
 }
 
+// Ask once, not in a loop: the scene's needs of memory are counted for it, too.
 static int target_count(const RamifyScene *scene)
 {
     RamifySceneInfo info;
@@ -157,8 +158,9 @@ static bool is_met(const RamifyTarget *target, double value)
 
 static void print_targets(const RamifyScene *scene, const double *values)
 {
-    printf("%s", target_count(scene) > 0 ? "targets\n" : "");
-    for (int i = 0; i < target_count(scene); i++) {
+    int count = target_count(scene);
+    printf("%s", count > 0 ? "targets\n" : "");
+    for (int i = 0; i < count; i++) {
         RamifyTarget target;
         char name[160], value[32], range[80];
         ramify_scene_target(scene, i, &target);
@@ -172,8 +174,9 @@ static void print_targets(const RamifyScene *scene, const double *values)
 
 static void print_json_targets(const RamifyScene *scene, const double *values)
 {
+    int count = target_count(scene);
     printf(", \"targets\": [");
-    for (int i = 0; i < target_count(scene); i++) {
+    for (int i = 0; i < count; i++) {
         RamifyTarget target;
         ramify_scene_target(scene, i, &target);
         printf("%s{\"object\": ", i > 0 ? ", " : "");
@@ -208,13 +211,13 @@ static bool judge_targets(const RamifyScene *scene, const double *values, Ramify
 // frees.
 static bool *wanted_objects(const Options *options, const RamifyScene *scene, RamifyError *e)
 {
-    int count = ramify_scene_object_count(scene);
+    int count = ramify_scene_object_count(scene), targets = target_count(scene);
     bool *wanted = allocate(count, sizeof *wanted, e);
     for (int i = 0; wanted && i < count; i++) {
         RamifyObjectInfo object;
         ramify_scene_object(scene, i, &object);
         wanted[i] = !options->targets;
-        for (int k = 0; k < target_count(scene) && !wanted[i]; k++) {
+        for (int k = 0; k < targets && !wanted[i]; k++) {
             RamifyTarget target;
             ramify_scene_target(scene, k, &target);
             wanted[i] = strcmp(target.object, object.name) == 0;

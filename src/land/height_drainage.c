@@ -109,7 +109,10 @@ static bool begin_at_rim(Flood *flood, Error *e)
 static bool reach(Flood *flood, int32_t here, int64_t n, int k, Error *e)
 {
     Drainage *out = flood->out;
-    float least = out->filled[here] + flood->fall * step_length(flood->field, k);
+    float least = out->filled[here];
+    if (flood->fall > 0.0f) {
+        least += flood->fall * step_length(flood->field, k);
+    }
     float above = flood->level ? out->filled[here] : next_above(out->filled[here]);
     float h = flood->field->height[n];
     least = least > above ? least : above;

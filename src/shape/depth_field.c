@@ -54,33 +54,38 @@ static float border_depth(const DepthField *f, const float *depth, int x, int y,
     return 1.0f / sqrtf(sum);
 }
 
-// Solves sum over axes of max(0, u - a_i)^2 = h^2 for the smallest u; the a_i are sorted.
-static float solve_node(float a, float b, float c, float h)
+// Of numbers: instructions, where fminf and fmaxf are calls.
+static inline float lower(float a, float b)
 {
-    float swap;
-    if (a > b) {
-        swap = a, a = b, b = swap;
-    }
-    if (b > c) {
-        swap = b, b = c, c = swap;
-    }
-    if (a > b) {
-        swap = a, a = b, b = swap;
-    }
+    return a < b ? a : b;
+}
+
+static inline float higher(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+// Solves sum over axes of max(0, u - a_i)^2 = h^2 for the smallest u.
+static inline float solve_node(float x, float y, float z, float h)
+{
+    float low = lower(x, y), high = higher(x, y), rest = higher(low, z);
+    float a = lower(low, z), b = lower(high, rest), c = higher(high, rest); // sorted
     float u = a + h;
     if (u > b) {
-        u = 0.5f * (a + b + sqrtf(fmaxf(2.0f * h * h - (a - b) * (a - b), 0.0f)));
+        u = 0.5f * (a + b + sqrtf(higher(2.0f * h * h - (a - b) * (a - b), 0.0f)));
     }
     if (u > c) {
         float sum = a + b + c, squares = a * a + b * b + c * c;
-        u = (sum + sqrtf(fmaxf(sum * sum - 3.0f * (squares - h * h), 0.0f))) / 3.0f;
+        u = (sum + sqrtf(higher(sum * sum - 3.0f * (squares - h * h), 0.0f))) / 3.0f;
     }
     return u;
 }
 
-// One pass over the grid; the bits of `way` choose the direction along each axis.
-static void sweep(DepthField *f, int way)
+// One pass over the grid; the bits of `way` choose the direction along each axis. False if it
+// changes nothing: then no other would.
+static bool sweep(DepthField *f, int way)
 {
+    bool changed = false;
     int64_t sx = (int64_t)f->size[1] * f->size[2], sy = f->size[2];
     int n[3] = {f->size[0] - 2, f->size[1] - 2, f->size[2] - 2};
     for (int i = 0; i < n[0]; i++) {
@@ -92,13 +97,15 @@ static void sweep(DepthField *f, int way)
                 float *d = f->depth;
                 if (d[at] > 0.0f) {
                     float u =
-                        solve_node(fminf(d[at - sx], d[at + sx]), fminf(d[at - sy], d[at + sy]),
-                                   fminf(d[at - 1], d[at + 1]), f->spacing);
-                    d[at] = fminf(d[at], u);
+                        solve_node(lower(d[at - sx], d[at + sx]), lower(d[at - sy], d[at + sy]),
+                                   lower(d[at - 1], d[at + 1]), f->spacing);
+                    changed |= u < d[at];
+                    d[at] = lower(d[at], u);
                 }
             }
         }
     }
+    return changed;
 }
 
 // Initialises outer nodes to 0 and inner ones to their depth where known, else to INFINITY.
@@ -135,13 +142,22 @@ static bool solve(DepthField *f, Error *e)
         }
     }
     // sweeps may lower a border node too, when its nearest surface point lies elsewhere
-    for (int i = 0; i < SWEEPS; i++) {
-        sweep(f, i);
+    bool changed = true;
+    for (int i = 0; i < SWEEPS && changed; i++) {
+        changed = sweep(f, i);
     }
     for (int64_t i = 0; i < count; i++) {
-        f->deepest = fmaxf(f->deepest, f->depth[i]);
+        f->deepest = higher(f->deepest, f->depth[i]);
     }
     return true;
+}
+
+// From a node at this distance, how many ahead are no deeper than what is found: an exact distance
+// changes by no more than the way.
+static int nodes_no_deeper(const DepthField *f, float distance)
+{
+    float way = 0.999f * (f->deepest + distance); // less, for rounding
+    return envelope_is_exact(f->envelope) ? (int)fminf(way / f->spacing, (float)CELLS) : 0;
 }
 
 static void find_deepest(DepthField *f)
@@ -151,6 +167,7 @@ static void find_deepest(DepthField *f)
             for (int z = 0; z < f->size[2]; z++) {
                 float d = envelope_distance(f->envelope, node_position(f, x, y, z));
                 f->deepest = fmaxf(f->deepest, -d);
+                z += nodes_no_deeper(f, d);
             }
         }
     }

@@ -477,6 +477,11 @@ float envelope_band(const Envelope *envelope)
     return envelope->level_set ? level_set_band(envelope->level_set) : INFINITY;
 }
 
+bool envelope_is_exact(const Envelope *envelope)
+{
+    return !envelope->level_set && !envelope->existing && envelope->primitive.exact;
+}
+
 const Mesh *envelope_surface(const Envelope *envelope)
 {
     return envelope->existing ? envelope->existing->mesh : envelope->surface;

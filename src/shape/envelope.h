@@ -100,6 +100,9 @@ bool envelope_contains(const Envelope *envelope, Vec3 p);
 // Distance at which envelope_distance is clamped, m; INFINITY if it is exact.
 float envelope_band(const Envelope *envelope);
 
+// Is envelope_distance that to the surface everywhere, as of one primitive that is not sheared?
+bool envelope_is_exact(const Envelope *envelope);
+
 // Adds the envelope to the file's grids as a level set: its own, or for a single primitive one of
 // 128 voxels along the longest side. Not for an envelope_of_surface, which has no inside.
 bool envelope_add_to(const Envelope *envelope, const char *name, GridFile *grids, const Run *run,

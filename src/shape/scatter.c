@@ -25,9 +25,15 @@ static double unit_double(uint64_t key)
     return (double)(random_mix(key) >> 11) * 0x1p-53;
 }
 
+// How near p is to the surface: 0 at the deepest place, 1 at the surface.
+static double outness(const Scatter *s, Vec3 p)
+{
+    return s->uses_depth ? 1.0 - (double)depth_field_at(&s->depth, p) : 0.0;
+}
+
 // Density at p relative to a uniform one, before normalisation of shell and gradients; its maximum
-// is largest_weight.
-static double weight_at(const Scatter *s, Vec3 p)
+// is largest_weight. out: outness of p.
+static double weight_at(const Scatter *s, Vec3 p, double out)
 {
     const ScatterParams *params = s->params;
     double height = (double)clampf((p.y - s->lowest) * s->inverse_height, 0.0f, 1.0f);
@@ -36,7 +42,7 @@ static double weight_at(const Scatter *s, Vec3 p)
         weight *= (double)params->density(params->density_user, p);
     }
     if (s->uses_depth) {
-        double out = 1.0 - (double)depth_field_at(&s->depth, p), out2 = out * out;
+        double out2 = out * out;
         weight *= 1.0 + (double)params->depth_gradient * (2.0 * out - 1.0);
         weight *= 1.0 - (double)params->shell + (double)params->shell * out2 * out2 / s->mean_shell;
     }
@@ -96,8 +102,8 @@ static void draw_on_surface(const Scatter *s, uint64_t key, Draw *draw)
 
 bool scatter_keeps(const Scatter *s, Vec3 p, uint64_t key)
 {
-    return !s->weighted ||
-           unit_double(random_key(key, STREAM_KEEP)) * largest_weight(s) < weight_at(s, p);
+    return !s->weighted || unit_double(random_key(key, STREAM_KEEP)) * largest_weight(s) <
+                               weight_at(s, p, outness(s, p));
 }
 
 Draw scatter_draw(const Scatter *s, uint64_t number)
@@ -227,25 +233,27 @@ static bool measure_weights(Scatter *s, Error *e)
     pilot.params = &even;
     pilot.weighted = false;
     Vec3 *inner = memory_alloc(PILOT_DRAWS, sizeof *inner, e);
+    double *out = memory_alloc(PILOT_DRAWS, sizeof *out, e);
+    bool made = inner && out;
     int64_t n = 0;
-    for (uint64_t i = 0; inner && i < PILOT_TRIES && n < PILOT_DRAWS; i++) {
+    for (uint64_t i = 0; made && i < PILOT_TRIES && n < PILOT_DRAWS; i++) {
         Draw draw = scatter_draw(&pilot, i);
         if (draw.inside) {
             inner[n++] = draw.position;
         }
     }
     double shell = 0.0, weight = 0.0;
-    for (int64_t i = 0; s->uses_depth && i < n; i++) {
-        double out = 1.0 - (double)depth_field_at(&s->depth, inner[i]);
-        shell += out * out * out * out;
+    for (int64_t i = 0; i < n; i++) {
+        out[i] = outness(s, inner[i]);
+        shell += out[i] * out[i] * out[i] * out[i];
     }
     s->mean_shell = n > 0 && shell > 0.0 ? shell / (double)n : 1.0;
     for (int64_t i = 0; i < n; i++) {
-        weight += weight_at(s, inner[i]);
+        weight += weight_at(s, inner[i], out[i]);
     }
     s->mean_weight = n > 0 ? weight / ((double)n * largest_weight(s)) : 0.0;
-    bool made = inner;
     free(inner);
+    free(out);
     if (made && !(s->mean_weight > 0.0)) {
         return scatter_empty_error(s, PILOT_TRIES, e);
     }

@@ -68,23 +68,23 @@ nm "$RAMIFY" 2>/dev/null | grep -q __asan_init && sanitized=yes
 if [ "$sanitized" = no ]; then
     tells grass 'ground: {grass_tufts: 150000}'
     tells leaves 'tree: {leaves: {max_count: 100000}}'
-    tells sides 'frost: {sides: 120000}'
-    tells particles 'dla: {particles: 2000}'
-    tells grains 'frost: {sides: 1000, grains: 400000}'
+    tells sides 'frost: {sides: 60000}'
+    tells particles 'dla: {particles: 1000}'
+    tells grains 'frost: {sides: 1000, grains: 150000}'
     tells skeleton "skeleton: {file: $neuron, scale: 0.01, skin: {levels: 1}}" 160
     tells twigs 'tree: {crown: {growth: {levels: [{attractors: 4000}]}}, roots: {count: 0}, leaves: {max_count: 0}, radii: {tip: 0.004}, skin: {curve_radius: 0.006}}' 160
     tells rules 'lsystem: {height: 11.5, generations: 6, leaves: {max_count: 0}}'
     tells drawn 'lsystem: {height: 0.52, axiom: X, rules: "X -> [+FX][-FX]FX", generations: 5, elasticity: 0, radii: {exponent: 4, tip: 0.0016}, leaves: {max_count: 0}, skin: {curve_radius: 0}}' 130
     tells fan 'coral: {form: fan, levels: 3}' 130
-    tells surface 'shape: {voxel: 0.007, envelope: [{shape: sphere}, {shape: sphere, position: [0.7, 0, 0]}]}' 160
+    tells surface 'shape: {voxel: 0.01, envelope: [{shape: sphere}, {shape: sphere, position: [0.7, 0, 0]}]}' 130
     check surface_export 0 "$RAMIFY" export surface.yaml -o surface.stl -q
-    tells mesh 'mesh: {file: surface.stl}' 160
+    tells mesh 'mesh: {file: surface.stl}' 130
     # What reads pictures takes more than all the rest of so small a scene.
     scene pictured 'shape: {envelope: [{shape: sphere}]}'
     sed -i 's/sky: .*/sky: {kind: environment, file: mesh.png}/' pictured.yaml
     foretells pictured 130
     estimates many 'ground: {grass_tufts: 150000}'
-    estimates large 'shape: {envelope: [{shape: sphere}]}' --size 1200x800 --samples 2
+    estimates large 'shape: {envelope: [{shape: sphere}]}' --size 720x480 --samples 2
     estimates quarter 'tree: {leaves: {max_count: 50000}}' --size 640x400 --crop 0,0,0.5,0.5 --samples 4
     # What counts do not rule out is refused once it is built, before the first path.
     scene built 'ground: {grass_tufts: 150000}'

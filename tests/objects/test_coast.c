@@ -231,6 +231,21 @@ static void forget(Grew *grew)
     grown_clear(&grew->grown);
 }
 
+// Grown once for several tests.
+static int grow_shared(void **state)
+{
+    static Grew shared;
+    grow(&shared, 256, SIDE_SOUTH, 0);
+    *state = &shared;
+    return 0;
+}
+
+static int forget_shared(void **state)
+{
+    forget(*state);
+    return 0;
+}
+
 static double value(const Grew *grew, const char *name)
 {
     return measured(&grew->list, name);
@@ -247,45 +262,40 @@ static double land_share(const HeightField *field)
 
 static void the_resolution_keeps_the_coast(void **state)
 {
-    (void)state;
-    Grew coarse, fine;
+    const Grew *fine = *state;
+    Grew coarse;
     grow(&coarse, 128, SIDE_SOUTH, 0);
-    grow(&fine, 256, SIDE_SOUTH, 0);
     double same = 0.0, all = 0.0;
     for (int row = 0; row <= 128; row++) {
         for (int column = 0; column <= 128; column++) {
             bool a = coarse.field->height[row * 129 + column] > 3.0f;
-            bool b = fine.field->height[2 * row * 257 + 2 * column] > 3.0f;
+            bool b = fine->field->height[2 * row * 257 + 2 * column] > 3.0f;
             same += a == b;
             all += 1.0;
         }
     }
     printf("  %g of the samples are land, or sea, in both; land %g and %g, cliffs %g and %g m\n",
-           same / all, land_share(coarse.field), land_share(fine.field),
-           value(&coarse, "cliff_height"), value(&fine, "cliff_height"));
+           same / all, land_share(coarse.field), land_share(fine->field),
+           value(&coarse, "cliff_height"), value(fine, "cliff_height"));
     assert_true(same > 0.96 * all);
-    assert_true(fabs(value(&coarse, "cliff_height") / value(&fine, "cliff_height") - 1.0) < 0.25);
+    assert_true(fabs(value(&coarse, "cliff_height") / value(fine, "cliff_height") - 1.0) < 0.25);
     forget(&coarse);
-    forget(&fine);
 }
 
 static void it_measures_as_coasts_do(void **state)
 {
-    (void)state;
-    Grew grew;
-    grow(&grew, 256, SIDE_SOUTH, 0);
-    double steep = value(&grew, "cliff_slope"), beach = value(&grew, "beach_slope");
-    double dimension = value(&grew, "shore_dimension"), sandy = value(&grew, "beach_share");
+    const Grew *grew = *state;
+    double steep = value(grew, "cliff_slope"), beach = value(grew, "beach_slope");
+    double dimension = value(grew, "shore_dimension"), sandy = value(grew, "beach_share");
     printf("  cliffs %g m and %g degrees, beach %g degrees on %g, platform %g, dimension %g, %g "
            "stacks\n",
-           value(&grew, "cliff_height"), steep, beach, sandy, value(&grew, "platform_slope"),
-           dimension, value(&grew, "stacks"));
-    assert_true(value(&grew, "cliff_height") > 20.0 && value(&grew, "cliff_height") < 70.0);
+           value(grew, "cliff_height"), steep, beach, sandy, value(grew, "platform_slope"),
+           dimension, value(grew, "stacks"));
+    assert_true(value(grew, "cliff_height") > 20.0 && value(grew, "cliff_height") < 70.0);
     assert_true(steep > 45.0 && steep < 85.0);
     assert_true(beach > 2.0 && beach < 9.0);
     assert_true(dimension > 1.05 && dimension < 1.4);
     assert_true(sandy > 0.1 && sandy < 0.95);
-    forget(&grew);
 }
 
 // The sea lies on the side that is asked for, and reaches across the border there.
@@ -338,5 +348,5 @@ int main(void)
         cmocka_unit_test(the_sea_lies_where_it_should),
         cmocka_unit_test(threads_change_nothing),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, grow_shared, forget_shared);
 }

@@ -41,6 +41,21 @@ static void clear(Made *made)
     grown_clear(&made->grown);
 }
 
+// Grown once for two tests.
+static int make_shared(void **state)
+{
+    static Made shared;
+    shared = make(300.0f, 256, 5, 0);
+    *state = &shared;
+    return 0;
+}
+
+static int clear_shared(void **state)
+{
+    clear(*state);
+    return 0;
+}
+
 static double value(const Made *made, const char *name)
 {
     const Measure *measure = measures_find(&made->list, name);
@@ -90,9 +105,8 @@ static bool is_top(const Landscape *land, int64_t i)
 // alike, high or low (Roering et al. 2007).
 static void all_tops_bend_alike(void **state)
 {
-    (void)state;
-    Made made = make(300.0f, 256, 5, 0);
-    const Landscape *land = made.land;
+    const Made *made = *state;
+    const Landscape *land = made->land;
     double bend[4096];
     int count = 0;
     for (int row = 2; row < land->side - 2; row++) {
@@ -111,46 +125,42 @@ static void all_tops_bend_alike(void **state)
     printf("  curvature of %d tops: %g, %g, %g /m\n", count, bend[count / 10], median,
            bend[count - 1 - count / 10]);
     assert_true(bend[count / 10] > 1.15 * median && bend[count - 1 - count / 10] < 0.85 * median);
-    assert_true(fabs(median - value(&made, "hilltop_curvature")) < 1e-9 * fabs(median));
-    clear(&made);
+    assert_true(fabs(median - value(made, "hilltop_curvature")) < 1e-9 * fabs(median));
 }
 
 static void land_is_as_high_as_asked_and_under_soil(void **state)
 {
-    (void)state;
-    Made made = make(300.0f, 256, 6, 0);
+    const Made *made = *state;
     float low, high;
-    height_field_range(made.field, &low, &high);
+    height_field_range(made->field, &low, &high);
     assert_true(fabsf(high - low - 150.0f) < 3.0f);
-    int64_t bare = 0, count = landscape_count(made.land);
+    int64_t bare = 0, count = landscape_count(made->land);
     for (int64_t i = 0; i < count; i++) {
-        bare += made.land->loose[i] < 0.02;
+        bare += made->land->loose[i] < 0.02;
     }
     printf("  bare rock: %g of the land\n", (double)bare / (double)count);
     assert_true((double)bare < 0.05 * (double)count);
-    assert_int_equal(height_field_pits(made.field), 0);
-    clear(&made);
+    assert_int_equal(height_field_pits(made->field), 0);
 }
 
 // The resolution changes the detail, not the form.
 static void the_resolution_keeps_the_hills(void **state)
 {
-    (void)state;
-    Made coarse = make(300.0f, 128, 7, 0), fine = make(300.0f, 512, 7, 0);
+    const Made *coarse = *state;
+    Made fine = make(300.0f, 512, 5, 0);
     double sum = 0.0, change = 0.0;
-    for (int row = 0; row <= 128; row += 2) {
-        for (int column = 0; column <= 128; column += 2) {
-            float a = coarse.field->height[row * 129 + column];
-            float b = fine.field->height[(4 * row) * 513 + 4 * column];
+    for (int row = 0; row <= 256; row += 4) {
+        for (int column = 0; column <= 256; column += 4) {
+            float a = coarse->field->height[row * 257 + column];
+            float b = fine.field->height[(2 * row) * 513 + 2 * column];
             change += (double)((a - b) * (a - b));
             sum += 1.0;
         }
     }
     change = sqrt(change / sum);
-    printf("  spacing %g and %g m, change %g m\n", value(&coarse, "valley_spacing"),
+    printf("  spacing %g and %g m, change %g m\n", value(coarse, "valley_spacing"),
            value(&fine, "valley_spacing"), change);
     assert_true(change < 0.01 * 150.0);
-    clear(&coarse);
     clear(&fine);
 }
 
@@ -217,5 +227,5 @@ int main(void)
         cmocka_unit_test(rills_cut_the_slopes),
         cmocka_unit_test(threads_change_nothing),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_shared, clear_shared);
 }

@@ -122,7 +122,7 @@ static void assert_fluence(float medium, int last)
     World *world = tiny_world(4, 4, 1, 0.5f);
     world->medium = (Medium){.kind = medium > 0.0f ? MEDIUM_EVERYWHERE : MEDIUM_NONE,
                              .scattering = vec3_splat(medium),
-                             .extent = 20000.0f};
+                             .extent = 9000.0f};
     const float radius = 10.0f;
     const Vec3 center = {0, 5000, 0};
     add_light(world, ball(center, radius, vec3(8.0f, 4.0f, 2.0f)));

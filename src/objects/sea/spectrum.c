@@ -93,7 +93,9 @@ double wave_spectrum_at(const WaveSpectrum *s, double omega)
     double width = ratio > 1.0 ? 0.07 : 0.09;
     double off = (omega - s->peak) / (width * s->peak);
     double ratio4 = ratio * ratio * ratio * ratio;
-    double enhanced = power(s->peakedness, exact_exp(-0.5 * off * off));
+    // Far from the peak the overshoot is 1 to the last bit, which most waves need not wait for.
+    double closeness = -0.5 * off * off;
+    double enhanced = closeness < -40.0 ? 1.0 : power(s->peakedness, exact_exp(closeness));
     double omega2 = omega * omega;
     double deep = s->level * GRAVITY * GRAVITY / (omega2 * omega2 * omega) *
                   exact_exp(-1.25 * ratio4) * enhanced;
@@ -114,6 +116,9 @@ double wave_spectrum_spread(const WaveSpectrum *s, double omega, double angle)
 // Share 0..1 of the ripples at a wave number.
 static double ripple_share(double k)
 {
+    if (k <= RIPPLE_FROM) {
+        return 0.0;
+    }
     double share = exact_log(k / RIPPLE_FROM) / exact_log(RIPPLE_FULL / RIPPLE_FROM);
     return share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share;
 }

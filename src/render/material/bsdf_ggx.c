@@ -4,16 +4,27 @@
 
 #include <string.h>
 
-Vec3 ggx_draw_normal(Vec3 wo, float alpha, float u0, float u1)
+// wo as the facets of a hemisphere see it.
+static Vec3 standard_direction(Vec3 wo, float alpha)
 {
-    Vec3 standard = vec3_normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
-    float s, c;
-    sincos_turn(u0, &s, &c);
+    return vec3_normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
+}
+
+// s, c: sine and cosine of the azimuth that is drawn.
+static inline Vec3 normal_about(Vec3 standard, float alpha, float s, float c, float u1)
+{
     float z = 1.0f - u1 * (1.0f + standard.z);
     float r = sqrtf(fmaxf(0.0f, 1.0f - z * z));
     Vec3 h = vec3_add(vec3(r * c, r * s, z), standard);
     h = vec3_normalize(vec3(alpha * h.x, alpha * h.y, fmaxf(h.z, 0.0f)));
     return h.z > 0.0f ? h : vec3(0.0f, 0.0f, 1.0f);
+}
+
+Vec3 ggx_draw_normal(Vec3 wo, float alpha, float u0, float u1)
+{
+    float s, c;
+    sincos_turn(u0, &s, &c);
+    return normal_about(standard_direction(wo, alpha), alpha, s, c, u1);
 }
 
 float fresnel_dielectric(float cosine, float eta, float *cosine_t)
@@ -89,12 +100,25 @@ static float shadowing(float alpha, Vec3 wo, Vec3 wi)
     return (1.0f + lambda_o) / (1.0f + lambda_o + lambda_i);
 }
 
-static Vec3 quadrature_normal(Vec3 wo, float alpha, int k)
+// Sines and cosines of the azimuths of the quadrature: the same for all nodes.
+typedef struct Azimuths {
+    float sine[DRAWS], cosine[DRAWS];
+} Azimuths;
+
+static void find_azimuths(Azimuths *azimuths)
 {
-    // half a turn: the lobe is symmetric about the plane of wo
-    float u0 = 0.5f * ((float)(k * 987 % DRAWS) + 0.5f) / DRAWS;
+    for (int k = 0; k < DRAWS; k++) {
+        // half a turn: the lobe is symmetric about the plane of wo
+        float u0 = 0.5f * ((float)(k * 987 % DRAWS) + 0.5f) / DRAWS;
+        sincos_turn(u0, &azimuths->sine[k], &azimuths->cosine[k]);
+    }
+}
+
+// standard: standard_direction of wo.
+static Vec3 quadrature_normal(const Azimuths *azimuths, Vec3 standard, float alpha, int k)
+{
     float u1 = ((float)k + 0.5f) / DRAWS;
-    return ggx_draw_normal(wo, alpha, u0, u1);
+    return normal_about(standard, alpha, azimuths->sine[k], azimuths->cosine[k], u1);
 }
 
 // Finds factors r with r_i sum_j to_ij r_j = 1: symmetric scaling of a matrix to unit rows
@@ -117,12 +141,13 @@ static void balance(const Scattering *scattering, float *factor)
     }
 }
 
-static void reflect_from_node(GgxTable *table, Scattering *scattering, float alpha, int node)
+static void reflect_from_node(GgxTable *table, Scattering *scattering, const Azimuths *azimuths,
+                              float alpha, int node)
 {
-    Vec3 wo = node_direction(node);
+    Vec3 wo = node_direction(node), standard = standard_direction(wo, alpha);
     float f0 = 0.0f, f90 = 0.0f;
     for (int k = 0; k < DRAWS; k++) {
-        Vec3 h = quadrature_normal(wo, alpha, k);
+        Vec3 h = quadrature_normal(azimuths, standard, alpha, k);
         float cosine = vec3_dot(wo, h);
         Vec3 wi = vec3_sub(vec3_scale(h, 2.0f * cosine), wo);
         if (wi.z > 0.0f) {
@@ -139,20 +164,23 @@ static void reflect_from_node(GgxTable *table, Scattering *scattering, float alp
 void ggx_table_reflection(GgxTable *table, float alpha)
 {
     Scattering scattering = {.count = GGX_NODES};
+    Azimuths azimuths;
+    find_azimuths(&azimuths);
     for (int node = 0; node < GGX_NODES; node++) {
-        reflect_from_node(table, &scattering, alpha, node);
+        reflect_from_node(table, &scattering, &azimuths, alpha, node);
     }
     table->mean_scale = table_mean(table->scale);
     table->mean_bias = table_mean(table->bias);
     balance(&scattering, table->restore[0]);
 }
 
-static void refract_from_node(Scattering *scattering, float alpha, float eta, int side, int node)
+static void refract_from_node(Scattering *scattering, const Azimuths *azimuths, float alpha,
+                              float eta, int side, int node)
 {
-    Vec3 wo = node_direction(node);
+    Vec3 wo = node_direction(node), standard = standard_direction(wo, alpha);
     float *row = scattering->to[side * GGX_NODES + node];
     for (int k = 0; k < DRAWS; k++) {
-        Vec3 h = quadrature_normal(wo, alpha, k);
+        Vec3 h = quadrature_normal(azimuths, standard, alpha, k);
         float cosine = vec3_dot(wo, h), cosine_t;
         float f = fresnel_dielectric(cosine, eta, &cosine_t);
         Vec3 reflected = vec3_sub(vec3_scale(h, 2.0f * cosine), wo);
@@ -172,9 +200,11 @@ void ggx_table_dielectric(GgxTable *table, float alpha, float ior)
 {
     Scattering scattering = {.count = 2 * GGX_NODES};
     float factor[2 * GGX_NODES];
+    Azimuths azimuths;
+    find_azimuths(&azimuths);
     for (int side = 0; side < 2; side++) {
         for (int node = 0; node < GGX_NODES; node++) {
-            refract_from_node(&scattering, alpha, side ? 1.0f / ior : ior, side, node);
+            refract_from_node(&scattering, &azimuths, alpha, side ? 1.0f / ior : ior, side, node);
         }
     }
     balance(&scattering, factor);

@@ -126,12 +126,27 @@ Vec3 layered_eval(const Bsdf *b, Vec3 wo, Vec3 wi, float *pdf)
     return f;
 }
 
+// An entry before this one with the same table, which depends on alpha alone; NULL = none.
+static const MaterialEntry *find_alike(const MaterialEntry *entry, const MaterialSet *set)
+{
+    for (const MaterialEntry *other = set->entry; other < entry; other++) {
+        if (other->table && other->ops == entry->ops && other->alpha == entry->alpha) {
+            return other;
+        }
+    }
+    return NULL;
+}
+
 bool layered_tabulate(MaterialEntry *entry, MaterialSet *set, Error *e)
 {
-    (void)set;
     if (!material_entry_add_table(entry, e)) {
         return false;
     }
-    ggx_table_reflection(entry->table, entry->alpha);
+    const MaterialEntry *alike = find_alike(entry, set);
+    if (alike) {
+        *entry->table = *alike->table;
+    } else {
+        ggx_table_reflection(entry->table, entry->alpha);
+    }
     return true;
 }

@@ -26,32 +26,46 @@ static void add_sunlit(const AirModel *a, AirMarch *m, const AirRay *ray, double
     }
 }
 
-void air_march_on(const AirModel *a, const AirGlow *glow, bool sunlit, const AirRay *ray,
-                  AirMarch *m, double before, double after)
+// clear: transmittance to the step, which the step dims.
+static AirStep step_between(const AirModel *a, double r, double mu, double before, double after,
+                            Spectrum *clear)
 {
-    double t = 0.5 * (before + after);
-    double radius = sqrt(ray->r * ray->r + t * t + 2.0 * ray->r * ray->mu * t);
-    Column d = air_density(radius - GROUND_RADIUS);
+    AirStep s = {.t = 0.5 * (before + after)};
+    s.radius = sqrt(r * r + s.t * s.t + 2.0 * r * mu * s.t);
+    s.density = air_density(s.radius - GROUND_RADIUS);
     float step = (float)(after - before);
-    double mu_sun = (ray->r * ray->mu_sun + t * ray->cosine) / radius;
-    Spectrum seen;
     for (int i = 0; i < SPECTRUM_BANDS; i++) {
-        float depth = air_extinction(a, i, d) * step, left = air_decay(depth);
+        float depth = air_extinction(a, i, s.density) * step, left = air_decay(depth);
         float mean = depth > 1e-3f ? (1.0f - left) / depth : 1.0f - 0.5f * depth;
-        seen.v[i] = m->clear.v[i] * mean * step;
-        m->clear.v[i] *= left;
+        s.seen.v[i] = clear->v[i] * mean * step;
+        clear->v[i] *= left;
     }
+    return s;
+}
+
+static void add_step(const AirModel *a, const AirGlow *glow, bool sunlit, const AirRay *ray,
+                     const AirStep *s, AirMarch *m)
+{
+    double mu_sun = (ray->r * ray->mu_sun + s->t * ray->cosine) / s->radius;
     if (sunlit) {
-        add_sunlit(a, m, ray, radius, mu_sun, &seen, d);
+        add_sunlit(a, m, ray, s->radius, mu_sun, &s->seen, s->density);
     }
     if (glow) {
         GlowPair light =
-            air_glow_at(glow, radius, mu_sun, (ray->r * ray->mu + t) / radius, ray->turn);
+            air_glow_at(glow, s->radius, mu_sun, (ray->r * ray->mu + s->t) / s->radius, ray->turn);
         for (int i = 0; i < SPECTRUM_BANDS; i++) {
-            m->glow.v[i] += seen.v[i] * (a->rayleigh.v[i] * d.rayleigh * light.air.v[i] +
-                                         a->mie_scattering.v[i] * d.mie * light.dust.v[i]);
+            m->glow.v[i] +=
+                s->seen.v[i] * (a->rayleigh.v[i] * s->density.rayleigh * light.air.v[i] +
+                                a->mie_scattering.v[i] * s->density.mie * light.dust.v[i]);
         }
     }
+}
+
+void air_march_on(const AirModel *a, const AirGlow *glow, bool sunlit, const AirRay *ray,
+                  AirMarch *m, double before, double after)
+{
+    AirStep s = step_between(a, ray->r, ray->mu, before, after, &m->clear);
+    add_step(a, glow, sunlit, ray, &s, m);
 }
 
 AirMarch air_march_begin(void)
@@ -63,15 +77,24 @@ AirMarch air_march_begin(void)
     return m;
 }
 
-AirMarch air_march(const AirModel *a, const AirGlow *glow, bool sunlit, const AirRay *ray,
-                   double length, int steps)
+void air_path_find(const AirModel *a, double r, double mu, double length, int steps, AirPath *path)
 {
-    AirMarch m = air_march_begin();
+    path->count = steps;
+    path->clear = air_march_begin().clear;
     double before = 0.0;
     for (int i = 0; i < steps; i++) {
         double part = (double)(i + 1) / steps, after = length * part * part * part;
-        air_march_on(a, glow, sunlit, ray, &m, before, after);
+        path->step[i] = step_between(a, r, mu, before, after, &path->clear);
         before = after;
+    }
+}
+
+AirMarch air_march(const AirModel *a, const AirGlow *glow, bool sunlit, const AirRay *ray,
+                   const AirPath *path)
+{
+    AirMarch m = {.clear = path->clear};
+    for (int i = 0; i < path->count; i++) {
+        add_step(a, glow, sunlit, ray, &path->step[i], &m);
     }
     return m;
 }

@@ -27,9 +27,28 @@ AirMarch air_march_begin(void);
 void air_march_on(const AirModel *model, const AirGlow *glow, bool sunlit, const AirRay *ray,
                   AirMarch *march, double before, double after);
 
-// All of a ray's `length` km, in so many steps, by far the shortest at its start: through the whole
-// atmosphere 16 are as good as 5 %.
+// What a ray meets in a step, wherever the sun is.
+typedef struct AirStep {
+    double t, radius; // km along the ray to the step's middle, and its distance from Earth's
+    Column density;
+    Spectrum seen; // km: length of the step, as far as it is seen
+} AirStep;
+
+// The steps of all rays from radius r at an angle of cosine mu to the vertical.
+enum { AIR_PATH_STEPS = 32 };
+typedef struct AirPath {
+    int count;
+    AirStep step[AIR_PATH_STEPS];
+    Spectrum clear; // transmittance of all
+} AirPath;
+
+// All of `length` km in so many steps (at most AIR_PATH_STEPS), by far the shortest at its start:
+// through the whole atmosphere 16 are as good as 5 %.
+void air_path_find(const AirModel *model, double r, double mu, double length, int steps,
+                   AirPath *path);
+
+// Light along a ray on that path.
 AirMarch air_march(const AirModel *model, const AirGlow *glow, bool sunlit, const AirRay *ray,
-                   double length, int steps);
+                   const AirPath *path);
 
 #endif

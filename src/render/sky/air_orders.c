@@ -105,20 +105,35 @@ static Spectrum ground_light(const Orders *o, bool of_sun, double mu_sun)
     return light;
 }
 
-// Radiance that comes to the point from a direction: sunlight scattered once with before == NULL,
-// or else what scatters the light of `before` once more. The ground scatters, too.
-static Spectrum radiance_from(const Orders *o, const AirGlow *before, double r, double mu_sun,
-                              double mu, double turn)
+// What lies in a direction's way, the same for all that are tilted alike.
+typedef struct Way {
+    double r, mu, length;
+    bool ground; // at its end
+    AirPath path;
+} Way;
+
+static void find_way(const Orders *o, double r, double mu, Way *way)
 {
     enum { STEPS = 16 };
+    way->r = r;
+    way->mu = mu;
+    way->length = air_distance_to_top(r, mu);
+    way->ground = air_meets_ground(r, mu, &way->length);
+    air_path_find(o->model, r, mu, way->length, STEPS, &way->path);
+}
+
+// Radiance that comes to the point from a direction: sunlight scattered once with before == NULL,
+// or else what scatters the light of `before` once more. The ground scatters, too.
+static Spectrum radiance_from(const Orders *o, const AirGlow *before, const Way *way, double mu_sun,
+                              double turn)
+{
+    double r = way->r, mu = way->mu;
     double cosine = mu * mu_sun + sqrt(1.0 - mu * mu) * sqrt(1.0 - mu_sun * mu_sun) * cos(turn);
-    double length = air_distance_to_top(r, mu);
-    bool ground = air_meets_ground(r, mu, &length);
     AirRay ray = air_ray(r, mu, mu_sun, cosine);
-    AirMarch m = air_march(o->model, before, !before, &ray, length, STEPS);
+    AirMarch m = air_march(o->model, before, !before, &ray, &way->path);
     Spectrum light = before ? m.glow : m.sunlit;
-    if (ground) {
-        double foot = (r * mu_sun + length * cosine) / GROUND_RADIUS;
+    if (way->ground) {
+        double foot = (r * mu_sun + way->length * cosine) / GROUND_RADIUS;
         Spectrum lit = ground_light(o, !before, foot);
         for (int i = 0; i < SPECTRUM_BANDS; i++) {
             light.v[i] += m.clear.v[i] * lit.v[i] * o->model->ground_albedo / PI_F;
@@ -134,10 +149,14 @@ static void fill_point(const Orders *o, const AirGlow *before, Directions d, int
     int count = count_of(d);
     double r = air_glow_radius(height), mu_sun = air_glow_sun(sun);
     Spectrum light[FINE];
+    Way way;
     *irradiance = (Spectrum){{0.0f}};
     for (int k = 0; k < count; k++) {
         double mu = air_tilt(k / d.turns, d.tilts);
-        light[k] = radiance_from(o, before, r, mu_sun, mu, air_turn(k % d.turns, d.turns));
+        if (k % d.turns == 0) {
+            find_way(o, r, mu, &way);
+        }
+        light[k] = radiance_from(o, before, &way, mu_sun, air_turn(k % d.turns, d.turns));
         float share = (float)(fmax(mu, 0.0) * solid_angle(d, k / d.turns));
         for (int i = 0; i < SPECTRUM_BANDS; i++) {
             irradiance->v[i] += share * light[k].v[i];

@@ -126,16 +126,29 @@ static AirRay ray_from(const Atmosphere *a, double height, Vec3 direction, Vec3 
                    (double)cosine);
 }
 
+void atmosphere_radiance_level(const Atmosphere *a, const Vec3 *direction, int count, Vec3 sun,
+                               Spectrum *light)
+{
+    Spectrum solar = atmosphere_solar_irradiance();
+    AirPath path;
+    for (int k = 0; k < count; k++) {
+        AirRay ray = ray_from(a, 0.0, direction[k], sun);
+        if (k == 0) {
+            double length = air_distance_to_top(ray.r, ray.mu);
+            air_meets_ground(ray.r, ray.mu, &length);
+            air_path_find(&a->model, ray.r, ray.mu, length, AIR_PATH_STEPS, &path);
+        }
+        AirMarch m = air_march(&a->model, &a->glow, true, &ray, &path);
+        for (int i = 0; i < SPECTRUM_BANDS; i++) {
+            light[k].v[i] = (m.sunlit.v[i] + m.glow.v[i]) * solar.v[i];
+        }
+    }
+}
+
 Spectrum atmosphere_radiance(const Atmosphere *a, Vec3 direction, Vec3 sun)
 {
-    AirRay ray = ray_from(a, 0.0, direction, sun);
-    double length = air_distance_to_top(ray.r, ray.mu);
-    air_meets_ground(ray.r, ray.mu, &length);
-    AirMarch m = air_march(&a->model, &a->glow, true, &ray, length, 32);
-    Spectrum solar = atmosphere_solar_irradiance(), light;
-    for (int i = 0; i < SPECTRUM_BANDS; i++) {
-        light.v[i] = (m.sunlit.v[i] + m.glow.v[i]) * solar.v[i];
-    }
+    Spectrum light;
+    atmosphere_radiance_level(a, &direction, 1, sun, &light);
     return light;
 }
 

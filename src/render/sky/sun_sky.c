@@ -43,12 +43,16 @@ static void bake_upper_half(Dome *dome, const Atmosphere *atmosphere, float sine
     for (int row = 0; row < SKY_ROWS / 2; row++) {
         float elevation = dome_elevation(true, ((float)row + 0.5f) / SKY_ROWS);
         DomeEntry *line = dome->entry + row * SKY_COLUMNS;
+        Vec3 direction[SKY_COLUMNS / 2];
+        Spectrum light[SKY_COLUMNS / 2];
         for (int i = 0; i < SKY_COLUMNS / 2; i++) {
             float azimuth = (0.5f - ((float)i + 0.5f) / SKY_COLUMNS) * 2.0f * PI_F;
-            Vec3 direction = vec3(cosf(elevation) * sinf(azimuth), sinf(elevation),
-                                  cosf(elevation) * cosf(azimuth));
-            Spectrum light = atmosphere_radiance(atmosphere, direction, sun);
-            line[i].radiance = vec3_scale(spectrum_color(&light, &colors), scale);
+            direction[i] = vec3(cosf(elevation) * sinf(azimuth), sinf(elevation),
+                                cosf(elevation) * cosf(azimuth));
+        }
+        atmosphere_radiance_level(atmosphere, direction, SKY_COLUMNS / 2, sun, light);
+        for (int i = 0; i < SKY_COLUMNS / 2; i++) {
+            line[i].radiance = vec3_scale(spectrum_color(&light[i], &colors), scale);
             line[SKY_COLUMNS - 1 - i] = line[i];
         }
     }
