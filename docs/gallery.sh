@@ -208,7 +208,7 @@ still vessels-organ vessels-organ
 still vessels-body vessels-body
 if is_wanted figure-15; then
     for share in 0.15 0.6 0.9 1; do
-        panel vessels-body --set grow_to=$share --size 480x864 --set objects.vessels.vessels.terminals=3000 --set camera.aperture=0 \
+        panel vessels-growth --set grow_to=$share --size 480x864 --set objects.vessels.vessels.terminals=3000 --set camera.aperture=0 \
             --set camera.position='[0.55, 1.02, 5.4]' --set camera.target='[0, 0.885, 0]' --set camera.fov=19.6
     done
     sheet figure-15 4x1

@@ -123,6 +123,8 @@ static bool passes_bodies(Path *path, Ray ray, const LightSample *light, Media m
         if (material_has(m, TRAIT_THIN)) {
             float cosine = fabsf(vec3_dot(ray.direction, point.geometric_normal));
             *share = vec3_scale(*share, 1.0f - material_shadow_opacity(m, cosine));
+        } else if (material_has(m, TRAIT_GAS)) {
+            // it lets all light pass
         } else if (material_is_index_matched(m)) {
             *share = vec3_mul(*share, m->color);
             media_cross(&media, tracer, point.material, point.backface);

@@ -1,6 +1,7 @@
 // A path at a surface: what the surface adds to it, and the ray that leaves it.
 #include "render/first_seen.h"
 #include "render/material/bsdf_ggx.h"
+#include "render/material/plasma.h"
 #include "render/path.h"
 
 #include <stddef.h>
@@ -17,6 +18,17 @@ static bool cross_index_matched(Path *path, const SurfacePoint *point)
     media_cross(&path->media, path->tracer, point->material, point->backface);
     path->throughput =
         vec3_mul(path->throughput, path->tracer->world->material[point->material].color);
+    path->ray = ray_leaving(point, path->ray.direction, path->key++);
+    path->footprint = point->footprint;
+    return ++path->crossings < MOST_CROSSINGS;
+}
+
+// Straight on through glowing gas, whose light is added: no lamp, it is found by such paths alone.
+// False after too many surfaces of it.
+static bool cross_gas(Path *path, const SurfacePoint *point)
+{
+    const Material *m = &path->tracer->world->material[point->material];
+    path_add_light(path, plasma_radiance(m, point, path->ray.direction));
     path->ray = ray_leaving(point, path->ray.direction, path->key++);
     path->footprint = point->footprint;
     return ++path->crossings < MOST_CROSSINGS;
@@ -236,6 +248,9 @@ Arrival path_arrive(Vertex *vertex)
     point->footprint = path->footprint + path->spread * hit->t;
     if (tracer->has_passable && material_lets_through(&tracer->world->material[point->material])) {
         const Material *m = &tracer->world->material[point->material];
+        if (material_has(m, TRAIT_GAS)) {
+            return cross_gas(path, point) ? ARRIVAL_CROSSED : ARRIVAL_ENDED;
+        }
         if (material_is_index_matched(m)) {
             return cross_index_matched(path, point) ? ARRIVAL_CROSSED : ARRIVAL_ENDED;
         }

@@ -10,10 +10,11 @@
 
 #define BIT(kind) (1u << (kind))
 #define ALL_BUT(kinds) (~(kinds))
-#define COLOURED ALL_BUT(BIT(MATERIAL_EMISSION))
 #define FILM BIT(MATERIAL_THIN_FILM)
+#define GAS BIT(MATERIAL_PLASMA)
+#define COLOURED ALL_BUT(BIT(MATERIAL_EMISSION) | GAS)
 #define CLEAR (BIT(MATERIAL_DIELECTRIC) | BIT(MATERIAL_WATER))
-#define PATTERNED ALL_BUT(BIT(MATERIAL_EMISSION) | CLEAR | FILM)
+#define PATTERNED ALL_BUT(BIT(MATERIAL_EMISSION) | CLEAR | FILM | GAS)
 #define LAYERED (BIT(MATERIAL_DIFFUSE) | BIT(MATERIAL_PRINCIPLED))
 #define BUMPED (PATTERNED | CLEAR)
 
@@ -123,12 +124,16 @@ static const Key MATERIAL_KEYS[] = {
             "bed sun and sky light straight through the surface; principled: matt base "
             "under a glossy coat, or metal; leaf: thin sheet that transmits light; emission: emits "
             "light, closed meshes and curves outward, sheets to both sides; thin_film: clear soap "
-            "film with interference colours."},
+            "film with interference colours; plasma: glowing gas with soft edges, which hides "
+            "nothing behind it."},
     {KEY_OF(Material, color, "color", KEY_COLOR), .kinds = COLOURED, .high = 1,
      .doc = "Reflectance; of a leaf, that of the upper side; of a dielectric, the tint of "
             "transmitted light."},
-    {KEY_OF(Material, color2, "color2", KEY_COLOR), .kinds = PATTERNED | BIT(MATERIAL_WATER),
-     .high = 1, .doc = "Second colour of the pattern: furrows, soil, veins; of water its foam."},
+    {KEY_OF(Material, color2, "color2", KEY_COLOR), .kinds = PATTERNED | BIT(MATERIAL_WATER) | GAS,
+     .high = 1,
+     .doc = "Second colour of the pattern: furrows, soil, veins; of water its foam; of plasma the "
+            "factor on its radiance where a branch ends, toward which it changes with the time of "
+            "growth."},
     {KEY_OF(Material, transmittance, "transmittance", KEY_COLOR), .kinds = BIT(MATERIAL_LEAF),
      .high = 1, .doc = "Colour of the light that a leaf transmits."},
     {KEY_OF(Material, autumn_color, "autumn_color", KEY_COLOR), .kinds = BIT(MATERIAL_LEAF),
@@ -141,8 +146,11 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, anisotropy, "anisotropy", KEY_FLOAT), .kinds = CLEAR, .low = -0.98,
      .high = 0.98,
      .doc = "Mean cosine of the scattering angle: 0 = isotropic, near 1 = forward, as in flesh."},
-    {KEY_OF(Material, roughness, "roughness", KEY_FLOAT), .kinds = COLOURED & ~FILM, .high = 1,
-     .doc = "Roughness of the surface: 0 = a mirror or a clear pane, 1 = matt."},
+    {KEY_OF(Material, roughness, "roughness", KEY_FLOAT), .kinds = (COLOURED & ~FILM) | GAS,
+     .high = 1,
+     .doc = "Roughness of the surface: 0 = a mirror or a clear pane, 1 = matt; of plasma the "
+            "softness of its edge: 0 = as of gas that glows evenly, 1 = it fades from a narrow "
+            "core on."},
     {KEY_OF(Material, metallic, "metallic", KEY_FLOAT), .kinds = BIT(MATERIAL_PRINCIPLED),
      .high = 1, .doc = "Metalness: 0 = dielectric, 1 = metal."},
     {KEY_OF(Material, specular, "specular", KEY_FLOAT),
@@ -150,8 +158,9 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "Strength of the glossy coat; 0.5 = index of refraction 1.5."},
     {KEY_OF(Material, ior, "ior", KEY_FLOAT), .kinds = CLEAR | FILM, .low = 1, .high = 5,
      .doc = "Index of refraction; 1 = index-matched: light passes straight through."},
-    {KEY_OF(Material, radiance, "radiance", KEY_COLOR), .kinds = BIT(MATERIAL_EMISSION),
-     .high = 1e12, .unit = "W/(m^2 sr)", .doc = "Emitted radiance."},
+    {KEY_OF(Material, radiance, "radiance", KEY_COLOR), .kinds = BIT(MATERIAL_EMISSION) | GAS,
+     .high = 1e12, .unit = "W/(m^2 sr)",
+     .doc = "Emitted radiance; of plasma where it is seen through its middle, from its side."},
     {KEY_OF(Material, film_thickness, "film_thickness", KEY_FLOAT), .kinds = FILM,
      .high = (double)THIN_FILM_MOST_NM, .unit = "nm",
      .doc = "Thickness of the film where it is vertical; 0 = invisible."},

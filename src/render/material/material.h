@@ -17,7 +17,8 @@
     KIND(PRINCIPLED, principled) \
     KIND(LEAF, leaf)             \
     KIND(EMISSION, emission)     \
-    KIND(THIN_FILM, thin_film)
+    KIND(THIN_FILM, thin_film)   \
+    KIND(PLASMA, plasma)
 
 typedef enum MaterialKind {
 #define KIND(NAME, name) MATERIAL_##NAME,
@@ -34,6 +35,7 @@ enum {
     TRAIT_OPEN = 32,    // a body that light enters and leaves straight on where it is gathered: see
                         // path_surface.c
     TRAIT_MIRROR = 64,  // may be smooth, and is a mirror there
+    TRAIT_GAS = 128,    // sends out `radiance` and hides nothing: rays go straight on through it
     TRAIT_PATTERNED = 16 // pattern, variation and texture change its colour; else at most bumps
 };
 
@@ -120,17 +122,19 @@ typedef struct Material {
     char name[64];
     MaterialKind kind;
     Vec3 color;           // reflectance (leaf: of the upper side; dielectric: tint of what passes)
-    Vec3 color2;          // the pattern's second colour (bark: of the furrows)
+    Vec3 color2;          // the pattern's second colour (bark: of the furrows; MATERIAL_PLASMA:
+                          // factor on the radiance at the ends of branches)
     Vec3 transmittance;   // MATERIAL_LEAF: diffuse transmittance
     Vec3 autumn_color;    // MATERIAL_LEAF: reflectance of a leaf that has turned
     Vec3 absorption;      // MATERIAL_DIELECTRIC: per metre, Beer-Lambert
     Vec3 scattering;      // MATERIAL_DIELECTRIC: per metre: clouded, milky, flesh
     float anisotropy;     // of that scattering: mean cosine, -1..1
-    float roughness;      // GGX alpha = roughness^2; of MATERIAL_DIFFUSE that of its facets; 0..1
+    float roughness;      // GGX alpha = roughness^2; of MATERIAL_DIFFUSE that of its facets; of
+                          // MATERIAL_PLASMA the softness of its edge; 0..1
     float metallic;       // MATERIAL_PRINCIPLED
     float specular;       // strength of the coat of principled and leaf, 0..1; 0.5 = ior 1.5
     float ior;            // MATERIAL_DIELECTRIC: 1 = index-matched, no surface
-    Vec3 radiance;        // MATERIAL_EMISSION: W / (m^2 sr)
+    Vec3 radiance;        // MATERIAL_EMISSION, MATERIAL_PLASMA: W / (m^2 sr)
     float film_thickness; // MATERIAL_THIN_FILM: nm where the film stands upright
     float film_drainage;  // 0..1: how much thinner it is where it faces up, thicker where down
     float film_swirl;     // 0..1: how far the thickness varies in streaks, pattern_scale wide
@@ -184,7 +188,8 @@ static inline bool material_is_index_matched(const Material *m)
 // Do rays go straight on through such an interface, out of the body or both ways?
 static inline bool material_lets_through(const Material *m)
 {
-    return material_is_index_matched(m) || material_has(m, TRAIT_OPEN);
+    return material_is_index_matched(m) || material_has(m, TRAIT_OPEN) ||
+           material_has(m, TRAIT_GAS);
 }
 
 // Does the colour change over the surface; from instance to instance?
