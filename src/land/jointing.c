@@ -21,15 +21,15 @@ typedef struct Scale {
     const JointingParams *params;
     const HeightField *field; // for its grid
     const Strata *strata;
-    const float *rock;          // m, of each sample: heights before this scale
-    const float *mask;          // 0..1: how far they change
-    const float *dx, *dz;       // mean gradient about each sample
-    float spacing, thick;       // m
-    float shown;                // 0..1: less of blocks of few samples
-    float throws;               // m
-    Vec2 normal[SETS];          // unit: across the joints of a set
-    Vec2 along[SETS];           // unit: along them
-    float sine;                 // of the angle between the sets
+    const float *rock;    // m, of each sample: heights before this scale
+    const float *mask;    // 0..1: how far they change
+    const float *dx, *dz; // mean gradient about each sample
+    float spacing, thick; // m
+    float shown;          // 0..1: less of blocks of few samples
+    float throws;         // m
+    Vec2 normal[SETS];    // unit: across the joints of a set
+    Vec2 along[SETS];     // unit: along them
+    float sine;           // of the angle between the sets
     uint64_t key;
 } Scale;
 
@@ -95,7 +95,8 @@ static float across(const Scale *s, int set, float x, float z)
         return straight;
     }
     uint64_t key = random_key(s->key, KEY_BEND + (uint64_t)set);
-    float bend = 2.0f * s->params->bends * s->spacing * noise_plane_fractal(x / wave, z / wave, 2, key);
+    float bend =
+        2.0f * s->params->bends * s->spacing * noise_plane_fractal(x / wave, z / wave, 2, key);
     return straight + bend;
 }
 
@@ -135,11 +136,11 @@ static float rock_at(const Scale *s, float x, float z)
 // What a block is: where its profile lies, and what moves it.
 typedef struct Block {
     uint64_t key;
-    float x, z;             // the place that is read, before the block moves
-    float out_x, out_z;     // unit: across its face, downhill
-    float out;              // m by which the whole block stands back
-    float base;             // m: of its beds
-    float throws;           // m
+    float x, z;         // the place that is read, before the block moves
+    float out_x, out_z; // unit: across its face, downhill
+    float out;          // m by which the whole block stands back
+    float base;         // m: of its beds
+    float throws;       // m
     float mask;
 } Block;
 
@@ -265,14 +266,15 @@ static float share_beyond(const Interval *about, float cell)
 
 static float sample_height(const Scale *s, float x, float z, float mask)
 {
-    float cell = 0.75f * s->field->cell.x;
+    float cell = 1.2f * s->field->cell.x;
     Place place = {x, z, .line = {across(s, 0, x, z), across(s, 1, x, z)}};
     Interval own = interval_at(place.line[0], s->spacing, cuts_key(s, 0, NULL));
     float share[SETS], sum = 0.0f;
     share[0] = share_beyond(&own, cell);
     for (int i = 0; i < (share[0] > 0.0f ? 2 : 1); i++) {
         float first = i == 0 ? 1.0f - share[0] : share[0];
-        place.about[0] = i == 0 ? own : beyond(&own, place.line[0], s->spacing, cuts_key(s, 0, NULL));
+        place.about[0] =
+            i == 0 ? own : beyond(&own, place.line[0], s->spacing, cuts_key(s, 0, NULL));
         uint64_t key = cuts_key(s, 1, &place.about[0]);
         Interval second = interval_at(place.line[1], s->spacing, key);
         share[1] = share_beyond(&second, cell);
@@ -458,14 +460,14 @@ static void cover_again(HeightField *field, const float *rock, const float *touc
 bool jointing_break(HeightField *field, const JointingParams *params, const Strata *strata,
                     const Run *run, Error *e)
 {
-    enum { ARRAYS = 7 };
+    enum { ARRAYS = 6 };
     int64_t count = height_field_count(field);
     float *all = memory_alloc(ARRAYS * count, sizeof *all, e);
     if (!all) {
         return false;
     }
     float *rock = all, *next = all + count, *mask = all + 2 * count, *dx = all + 3 * count,
-          *dz = all + 4 * count, *other = all + 5 * count, *touched = all + 6 * count;
+          *dz = all + 4 * count, *touched = all + 5 * count;
     for (int64_t i = 0; i < count; i++) {
         rock[i] = field->height[i] - (field->loose ? field->loose[i] : 0.0f);
         touched[i] = 0.0f;
@@ -482,7 +484,7 @@ bool jointing_break(HeightField *field, const JointingParams *params, const Stra
         s.mask = mask;
         s.dx = dx;
         s.dz = dz;
-        find_steep(&s, mask, dx, dz, other, run->threads);
+        find_steep(&s, mask, dx, dz, next, run->threads);
         done = break_scale(&s, next, run);
         for (int64_t i = 0; i < count; i++) {
             touched[i] = fmaxf(touched[i], mask[i]);

@@ -1,5 +1,5 @@
-// Rock that breaks along joints: two sets of upright cracks, and planes along the beds, part it into
-// blocks. Where land is steep, a block shows the profile through its middle, so that its face
+// Rock that breaks along joints: two sets of upright cracks, and planes along the beds, part it
+// into blocks. Where land is steep, a block shows the profile through its middle, so that its face
 // follows one set of joints, its sides the other; it stands out of the wall or back, bed by bed,
 // and gullies follow open joints into the wall. The land is only read from another place a little
 // aside: rock that is gone is gone, none is added elsewhere (mass is not kept).

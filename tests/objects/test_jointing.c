@@ -4,6 +4,7 @@
 #include "base/noise.h"
 #include "land/jointing.h"
 #include "making_terrain.h"
+#include "objects/terrain/lakes.h"
 
 #include <math.h>
 #include <string.h>
@@ -253,6 +254,44 @@ static void scree_stays(void **state)
     height_field_free(before);
 }
 
+// The key reaches the land, before its lakes are filled: all stand level at their outlets.
+static void lakes_lie_on_broken_land(void **state)
+{
+    (void)state;
+    TerrainParams params = terrain_params_default();
+    params.resolution = 128;
+    params.size = 3000.0f;
+    params.relief = 1500.0f;
+    params.lakes =
+        (TerrainLakeParams){.count = 20, .basins = 4, .deepness = 1.0f, .altitude = {0.0f, 1.0f}};
+    HeightField *whole = make_heights(&params, KEY, 1, NULL, NULL);
+    params.joints.spacing = 250.0f;
+    Grown kept;
+    HeightField *one = make_heights(&params, KEY, 1, NULL, &kept);
+    HeightField *three = make_heights(&params, KEY, 3, NULL, NULL);
+    size_t bytes = sizeof(float) * (size_t)height_field_count(one);
+    assert_memory_equal(one->height, three->height, bytes);
+    assert_memory_not_equal(one->height, whole->height, bytes);
+    const Lakes *lakes = ((const Terrain *)kept.state)->lakes;
+    assert_true(lakes->count > 0);
+    LakeLimits all = {0};
+    Error e = {0};
+    Lakes *found = lakes_find(one, &all, &e);
+    assert_non_null(found);
+    for (int i = 0; i < lakes->count; i++) {
+        int32_t label = found->label[lakes->lake[i].outlet], level = 0;
+        for (int k = 0; k < found->count; k++) {
+            level += fabsf(found->lake[k].level - lakes->lake[i].level) < 1e-3f;
+        }
+        assert_true(label < 0 && level > 0);
+    }
+    lakes_free(found);
+    grown_clear(&kept);
+    height_field_free(whole);
+    height_field_free(one);
+    height_field_free(three);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -263,6 +302,7 @@ int main(void)
         cmocka_unit_test(any_number_of_threads_makes_the_same_bits),
         cmocka_unit_test(a_window_matches_the_whole),
         cmocka_unit_test(scree_stays),
+        cmocka_unit_test(lakes_lie_on_broken_land),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

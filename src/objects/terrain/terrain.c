@@ -236,8 +236,7 @@ static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, E
     const TerrainParams *params = terrain->params;
     const Form *form = terrain_form(params);
     if (!terrain_erode(field, &params->erosion, run, e) ||
-        !terrain_carve_walls(terrain, field, run, e) ||
-        !break_rock(terrain, field, run, e) ||
+        !terrain_carve_walls(terrain, field, run, e) || !break_rock(terrain, field, run, e) ||
         (form->hollows && !terrain_cover_hollows(terrain, field, e)) ||
         (form->drain && !form->drain(terrain, field, run, e))) {
         return false;
