@@ -1,4 +1,4 @@
-#include "land/jointing.h"
+#include "land/jointing_parts.h"
 
 #include "base/exact_math.h"
 #include "base/memory.h"
@@ -9,29 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SETS = 2 };
-
 // Keys of a scale.
-enum { KEY_BEDS = 2, KEY_BLOCK, KEY_BEND, KEY_OPEN = KEY_BEND + SETS };
+enum { KEY_BEDS = 2, KEY_BLOCK, KEY_BEND, KEY_OPEN = KEY_BEND + JOINT_SETS };
 
 #define LONGEST 2.8f // spacings: at most, from joint to joint of a set
-#define MASK 0.35f   // spacings around steep land that change, too
-
-typedef struct Scale {
-    const JointingParams *params;
-    const HeightField *field; // for its grid
-    const Strata *strata;
-    const float *rock;    // m, of each sample: heights before this scale
-    const float *mask;    // 0..1: how far they change
-    const float *dx, *dz; // mean gradient about each sample
-    float spacing, thick; // m
-    float shown;          // 0..1: less of blocks of few samples
-    float throws;         // m
-    Vec2 normal[SETS];    // unit: across the joints of a set
-    Vec2 along[SETS];     // unit: along them
-    float sine;           // of the angle between the sets
-    uint64_t key;
-} Scale;
 
 // The interval about a place on a line that is cut at irregular distances.
 typedef struct Interval {
@@ -42,8 +23,8 @@ typedef struct Interval {
 // A place in plan in its block.
 typedef struct Place {
     float x, z;
-    float line[SETS]; // m across each set
-    Interval about[SETS];
+    float line[JOINT_SETS]; // m across each set
+    Interval about[JOINT_SETS];
 } Place;
 
 // ---- blocks
@@ -81,14 +62,14 @@ static Interval interval_at(float place, float spacing, uint64_t key)
 }
 
 // Joints of the second set end at those of the first.
-static uint64_t cuts_key(const Scale *s, int set, const Interval *first)
+static uint64_t cuts_key(const JointScale *s, int set, const Interval *first)
 {
     return set == 0 ? random_key(s->key, 0)
                     : random_key(random_key(s->key, 1), (uint64_t)first->number);
 }
 
 // Joints are not ruled lines.
-static float across(const Scale *s, int set, float x, float z)
+static float across(const JointScale *s, int set, float x, float z)
 {
     float straight = s->normal[set].x * x + s->normal[set].y * z, wave = 3.0f * s->spacing;
     if (s->params->bends <= 0.0f) {
@@ -116,7 +97,7 @@ static int64_t sample_near(const HeightField *field, float x, float z)
     return (int64_t)(v + 0.5) * field->columns + (int64_t)(u + 0.5);
 }
 
-static float rock_at(const Scale *s, float x, float z)
+static float rock_at(const JointScale *s, float x, float z)
 {
     const HeightField *field = s->field;
     double u = clamped(x, field->origin.x, field->cell.x, field->columns - 1);
@@ -150,12 +131,13 @@ static float turned(float facets, uint64_t key)
     return random_range(key, facets * facets, facets);
 }
 
-static Block block_at(const Scale *s, const Place *place, float mask)
+static Block block_at(const JointScale *s, const Place *place, float mask)
 {
     const JointingParams *params = s->params;
     const Interval *about = place->about;
-    float middle[SETS], to[SETS]; // along each set, to the middle between the other's joints
-    for (int set = 0; set < SETS; set++) {
+    float middle[JOINT_SETS],
+        to[JOINT_SETS]; // along each set, to the middle between the other's joints
+    for (int set = 0; set < JOINT_SETS; set++) {
         middle[set] = 0.5f * (about[set].high - about[set].low);
     }
     to[0] = middle[1] / (s->along[0].x * s->normal[1].x + s->along[0].y * s->normal[1].y);
@@ -163,10 +145,10 @@ static Block block_at(const Scale *s, const Place *place, float mask)
     float x = place->x + to[0] * s->along[0].x + to[1] * s->along[1].x;
     float z = place->z + to[0] * s->along[0].y + to[1] * s->along[1].y;
     int64_t i = sample_near(s->field, x, z);
-    float dx = s->dx[i], dz = s->dz[i], rise[SETS];
+    float dx = s->dx[i], dz = s->dz[i], rise[JOINT_SETS];
     uint64_t key = random_key(random_key(random_key(s->key, KEY_BLOCK), (uint64_t)about[0].number),
                               (uint64_t)about[1].number);
-    for (int set = 0; set < SETS; set++) {
+    for (int set = 0; set < JOINT_SETS; set++) {
         rise[set] = s->normal[set].x * dx + s->normal[set].y * dz;
     }
     float favour = random_range(random_key(key, 1), 0.75f, 1.33f);
@@ -187,7 +169,7 @@ static Block block_at(const Scale *s, const Place *place, float mask)
 
 // The height of a block of beds that stand out or back: at each level the rock is solid where the
 // bed there, moved, is.
-static float stacked(const Scale *s, const Block *block)
+static float stacked(const JointScale *s, const Block *block)
 {
     enum { MOST = 24 };
     float most = 0.4f * s->params->relief * s->spacing * block->mask;
@@ -212,7 +194,7 @@ static float stacked(const Scale *s, const Block *block)
 }
 
 // m, along a joint that cuts into the wall, by which the wall has been cleared back at a place.
-static float cleared(const Scale *s, const Place *place, int set)
+static float cleared(const JointScale *s, const Place *place, int set)
 {
     const Interval *about = &place->about[set];
     bool up = about->high < about->low;
@@ -226,12 +208,12 @@ static float cleared(const Scale *s, const Place *place, int set)
     return s->params->gullies * s->spacing * open * (1.0f - away / width);
 }
 
-static float height_in(const Scale *s, const Place *place, float mask)
+static float height_in(const JointScale *s, const Place *place, float mask)
 {
     Block block = block_at(s, place, mask);
     int64_t i = sample_near(s->field, place->x, place->z);
     float dx = s->dx[i], dz = s->dz[i], size = sqrtf(dx * dx + dz * dz);
-    for (int set = 0; size > 0.0f && set < SETS; set++) {
+    for (int set = 0; size > 0.0f && set < JOINT_SETS; set++) {
         Vec2 way = s->along[set];
         float rise = (way.x * dx + way.y * dz) / size;
         float steep = smoothstepf(0.4f, 0.85f, fabsf(rise)) * mask;
@@ -264,12 +246,12 @@ static float share_beyond(const Interval *about, float cell)
     return away < cell ? 0.5f * (1.0f - away / cell) : 0.0f;
 }
 
-static float sample_height(const Scale *s, float x, float z, float mask)
+static float sample_height(const JointScale *s, float x, float z, float mask)
 {
     float cell = 1.2f * s->field->cell.x;
     Place place = {x, z, .line = {across(s, 0, x, z), across(s, 1, x, z)}};
     Interval own = interval_at(place.line[0], s->spacing, cuts_key(s, 0, NULL));
-    float share[SETS], sum = 0.0f;
+    float share[JOINT_SETS], sum = 0.0f;
     share[0] = share_beyond(&own, cell);
     for (int i = 0; i < (share[0] > 0.0f ? 2 : 1); i++) {
         float first = i == 0 ? 1.0f - share[0] : share[0];
@@ -289,7 +271,7 @@ static float sample_height(const Scale *s, float x, float z, float mask)
     return sum;
 }
 
-static bool break_scale(const Scale *s, float *out, const Run *run)
+static bool break_scale(const JointScale *s, float *out, const Run *run)
 {
     const HeightField *field = s->field;
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
@@ -308,101 +290,13 @@ static bool break_scale(const Scale *s, float *out, const Run *run)
     return !run_is_cancelled(run);
 }
 
-// ---- where the land is steep
-
-// The mean, or the largest, of the samples within `reach` along rows (stride 1) or columns.
-typedef struct Filter {
-    int lines, count;
-    int64_t next, stride; // from line to line, and within a line
-    int reach;
-    bool largest;
-} Filter;
-
-static void filter_lines(const Filter *f, const float *from, float *to, int threads)
-{
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int line = 0; line < f->lines; line++) {
-        const float *in = from + line * f->next;
-        for (int k = 0; k < f->count; k++) {
-            int low = k > f->reach ? k - f->reach : 0;
-            int high = k + f->reach < f->count ? k + f->reach : f->count - 1;
-            float sum = 0.0f, most = in[low * f->stride];
-            for (int n = low; n <= high; n++) {
-                float value = in[n * f->stride];
-                sum += value;
-                most = fmaxf(most, value);
-            }
-            to[line * f->next + k * f->stride] = f->largest ? most : sum / (float)(high - low + 1);
-        }
-    }
-}
-
-// In place, by way of `other`.
-static void filter(const HeightField *field, float *values, float *other, int reach, bool largest,
-                   int threads)
-{
-    Filter rows = {field->rows, field->columns, field->columns, 1, reach, largest};
-    Filter columns = {field->columns, field->rows, 1, field->columns, reach, largest};
-    filter_lines(&rows, values, other, threads);
-    filter_lines(&columns, other, values, threads);
-}
-
-static void find_gradients(const HeightField *field, const float *rock, float *dx, float *dz,
-                           int threads)
-{
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int row = 0; row < field->rows; row++) {
-        int north = row > 0 ? row - 1 : 0, south = row + 1 < field->rows ? row + 1 : row;
-        for (int column = 0; column < field->columns; column++) {
-            int west = column > 0 ? column - 1 : 0;
-            int east = column + 1 < field->columns ? column + 1 : column;
-            const float *h = rock + (int64_t)row * field->columns;
-            int64_t i = (int64_t)row * field->columns + column;
-            dx[i] = (h[east] - h[west]) / ((float)(east - west) * field->cell.x);
-            dz[i] = (rock[(int64_t)south * field->columns + column] -
-                     rock[(int64_t)north * field->columns + column]) /
-                    ((float)(south - north) * field->cell.y);
-        }
-    }
-}
-
-static float tangent(float degrees)
-{
-    float sine, cosine;
-    exact_sincos(degrees * 0.017453292f, &sine, &cosine);
-    return sine / cosine;
-}
-
-static int samples_of(const HeightField *field, float distance)
-{
-    return (int)(distance / field->cell.x + 0.5f);
-}
-
-// Where rock breaks at a scale, and the slopes that it breaks on.
-static void find_steep(const Scale *s, float *mask, float *dx, float *dz, float *other, int threads)
-{
-    const HeightField *field = s->field;
-    float least = tangent(s->params->slope - 4.0f), most = tangent(s->params->slope + 4.0f);
-    find_gradients(field, s->rock, dx, dz, threads);
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (int64_t i = 0; i < height_field_count(field); i++) {
-        mask[i] = smoothstepf(least, most, sqrtf(dx[i] * dx[i] + dz[i] * dz[i]));
-    }
-    int half = samples_of(field, 0.5f * MASK * s->spacing);
-    filter(field, mask, other, half, true, threads);
-    filter(field, mask, other, half > 1 ? half / 2 : 1, false, threads);
-    int blur = samples_of(field, 0.4f * s->spacing);
-    filter(field, dx, other, blur, false, threads);
-    filter(field, dz, other, blur, false, threads);
-}
-
 // ---- the whole
 
 float jointing_reach(const JointingParams *params)
 {
     float spacing = params->spacing, sum = 0.0f;
     for (int k = 0; k < params->scales; k++, spacing *= JOINTING_RATIO) {
-        float block = LONGEST * (0.5f + 0.5f + 0.4f) + MASK;
+        float block = LONGEST * (0.5f + 0.5f + 0.4f) + JOINT_MASK;
         sum += spacing * (block + params->relief + 2.0f * params->gullies);
     }
     return sum;
@@ -415,9 +309,9 @@ static Vec2 toward(float azimuth)
     return (Vec2){sine, -cosine};
 }
 
-static Scale scale_of(const JointingParams *params, const HeightField *field, int number)
+static JointScale scale_of(const JointingParams *params, const HeightField *field, int number)
 {
-    Scale s = {.params = params, .field = field, .spacing = params->spacing};
+    JointScale s = {.params = params, .field = field, .spacing = params->spacing};
     for (int k = 0; k < number; k++) {
         s.spacing *= JOINTING_RATIO;
     }
@@ -426,7 +320,7 @@ static Scale scale_of(const JointingParams *params, const HeightField *field, in
     s.shown = smoothstepf(1.8f, 3.2f, s.spacing / field->cell.x);
     s.key = random_key(params->seed, (uint64_t)number);
     float turn = random_range(random_key(s.key, 99), -7.0f, 7.0f) * (number > 0 ? 1.0f : 0.0f);
-    for (int set = 0; set < SETS; set++) {
+    for (int set = 0; set < JOINT_SETS; set++) {
         Vec2 strike = toward(params->azimuth + (float)set * params->angle + turn);
         s.along[set] = strike;
         s.normal[set] = (Vec2){-strike.y, strike.x};
@@ -474,7 +368,7 @@ bool jointing_break(HeightField *field, const JointingParams *params, const Stra
     }
     bool done = true;
     for (int k = 0; done && k < params->scales; k++) {
-        Scale s = scale_of(params, field, k);
+        JointScale s = scale_of(params, field, k);
         if (s.shown <= 0.0f) {
             break;
         }
@@ -484,7 +378,7 @@ bool jointing_break(HeightField *field, const JointingParams *params, const Stra
         s.mask = mask;
         s.dx = dx;
         s.dz = dz;
-        find_steep(&s, mask, dx, dz, next, run->threads);
+        jointing_find_steep(&s, mask, dx, dz, next, run->threads);
         done = break_scale(&s, next, run);
         for (int64_t i = 0; i < count; i++) {
             touched[i] = fmaxf(touched[i], mask[i]);

@@ -32,7 +32,7 @@ TerrainParams terrain_params_default(void)
         .survey = {.band = 1, .exaggeration = 1.0f},
         .noise = {.iterations = 6, .amplitude = 0.11f, .gain = 0.5f, .ridged = 0.7f, .warp = 0.35f},
         .erosion = {.talus = 38.0f},
-        .joints = {.azimuth = 25.0f,
+        .joints = {.azimuth = 16.0f, // as the largest of pattern_crags.c
                    .angle = 75.0f,
                    .scales = 3,
                    .bends = 0.1f,
