@@ -135,8 +135,8 @@ static Block block_at(const JointScale *s, const Place *place, float mask)
 {
     const JointingParams *params = s->params;
     const Interval *about = place->about;
-    float middle[JOINT_SETS],
-        to[JOINT_SETS]; // along each set, to the middle between the other's joints
+    // Along each set, to the middle between the other's joints.
+    float middle[JOINT_SETS], to[JOINT_SETS];
     for (int set = 0; set < JOINT_SETS; set++) {
         middle[set] = 0.5f * (about[set].high - about[set].low);
     }
@@ -175,6 +175,9 @@ static float stacked(const JointScale *s, const Block *block)
     float most = 0.4f * s->params->relief * s->spacing * block->mask;
     float up = block->out - most;
     float top = rock_at(s, block->x + up * block->out_x, block->z + up * block->out_z);
+    if (!isfinite(top)) { // a gap in surveyed land
+        return top;
+    }
     uint64_t key = random_key(s->key, KEY_BEDS);
     Interval bed = interval_at(top - block->base, s->thick, key);
     float level = top - block->base, height = top;
