@@ -210,6 +210,9 @@ static const Case scenes[] = {
      "karst, meander, delta"},
     {"objects: [{name: a, terrain: {form: canyon, evolution: {cells: 700}}}]\n",
      ":1:64: objects.a.terrain.evolution.cells is 700; it must be a power of two, such as 1024"},
+    {"objects: [{name: a, terrain: {joints: {spacing: 150, angle: 10}}}]\n",
+     ":1:61: objects.a.terrain.joints.angle is 10; it must be at least 30 and at most 150 "
+     "degrees"},
     {"objects: [{name: a, terrain: {form: meander, size: 4096, resolution: 64, meander: {width: "
      "40}}}]\n",
      ":1:91: objects.a.terrain.meander.width is 40 m, less than a cell of the terrain, 64 m; a "

@@ -44,7 +44,8 @@ enum {
     STREAM_LIPS = 86,
     STREAM_DELTA = 87,
     STREAM_BASINS = 88,
-    STREAM_LUMPS = 89
+    STREAM_LUMPS = 89,
+    STREAM_BLOCKS = 90
 };
 
 // The tree and everything derived from it.

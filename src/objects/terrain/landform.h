@@ -145,6 +145,6 @@ typedef struct EvolutionParams {
 
 extern const struct Table strata_table, canyon_table, mesa_table, alps_table, volcano_table,
     dune_table, hill_table, badland_table, coast_table, braided_table, karst_table, meander_table,
-    delta_table, evolution_table, terrain_lake_table, terrain_forest_table;
+    delta_table, evolution_table, terrain_lake_table, terrain_forest_table, joint_table;
 
 #endif

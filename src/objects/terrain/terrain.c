@@ -223,12 +223,20 @@ static bool make_terraces(HeightField *field, const TerrainTerraceParams *terrac
     return true;
 }
 
+// Rock breaks along its joints when all has been worn, and before water is laid on it.
+static bool break_rock(const Terrain *terrain, HeightField *field, const Run *run, Error *e)
+{
+    JointingParams joints = terrain->params->joints;
+    joints.seed = random_key(terrain->seed, STREAM_BLOCKS);
+    return joints.spacing <= 0.0f || jointing_break(field, &joints, terrain->strata, run, e);
+}
+
 static bool finish_field(Terrain *terrain, HeightField *field, const Run *run, Error *e)
 {
     const TerrainParams *params = terrain->params;
     const Form *form = terrain_form(params);
     if (!terrain_erode(field, &params->erosion, run, e) ||
-        !terrain_carve_walls(terrain, field, run, e) ||
+        !terrain_carve_walls(terrain, field, run, e) || !break_rock(terrain, field, run, e) ||
         (form->hollows && !terrain_cover_hollows(terrain, field, e)) ||
         (form->drain && !form->drain(terrain, field, run, e))) {
         return false;

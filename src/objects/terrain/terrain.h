@@ -8,6 +8,7 @@
 
 #include "field/guide_field.h"
 #include "land/height_field.h"
+#include "land/jointing.h"
 #include "objects/common/recipe.h"
 #include "objects/terrain/landform.h"
 #include "objects/terrain/lift.h"
@@ -192,6 +193,7 @@ typedef struct TerrainParams {
     TerrainNoiseParams noise;
     TerrainErosionParams erosion;
     TerrainTerraceParams terraces;
+    JointingParams joints; // spacing 0 = rock does not break; the seed is the terrain's
     TerrainForestParams forest;
     TerrainLakeParams lakes;
     StrataParams strata; // top: 0 = the plateau's height
