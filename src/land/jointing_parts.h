@@ -6,7 +6,8 @@
 
 enum { JOINT_SETS = 2 };
 
-#define JOINT_MASK 0.35f // spacings around steep land that change, too
+#define JOINT_MASK 0.35f   // spacings around steep land that change, too
+#define JOINT_LONGEST 2.8f // spacings: at most, from joint to joint of a set
 
 // Blocks of one size.
 typedef struct JointScale {
@@ -21,7 +22,6 @@ typedef struct JointScale {
     float throws;            // m
     Vec2 normal[JOINT_SETS]; // unit: across the joints of a set
     Vec2 along[JOINT_SETS];  // unit: along them
-    float sine;              // of the angle between the sets
     uint64_t key;
 } JointScale;
 
@@ -29,5 +29,9 @@ typedef struct JointScale {
 // slopes that it breaks on. other: of the same size, overwritten.
 void jointing_find_steep(const JointScale *s, float *mask, float *dx, float *dz, float *other,
                          int threads);
+
+// jointing_block.c: m, the height that a sample at a place in plan takes. mask: 0..1, how far it
+// changes.
+float jointing_height(const JointScale *s, float x, float z, float mask);
 
 #endif
