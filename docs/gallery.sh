@@ -341,9 +341,9 @@ still sea sea
 still snow-crystal snow-crystal
 movie oak-year oak-year 120 null ""
 # walls of firs on four sides, as the bubble turns before the sun; the picture's edge is cut where they end
-walls='{shape: box, size: [7.4, 0.9, 0.2], position: [0, 0, -3.6]}, {shape: box, size: [7.4, 0.9, 0.2], position: [0, 0, 3.6]}'
-walls="$walls, {shape: box, size: [0.2, 0.9, 7.4], position: [-3.6, 0, 0]}, {shape: box, size: [0.2, 0.9, 7.4], position: [3.6, 0, 0]}"
-movie frost-bubble-turn frost-bubble 60 crop=438:246:21:24 "--spin --turns 1 --grow 0.16:0.6 --fps 12" --size 480x270 \
+walls='{shape: box, size: [7.4, 0.98, 0.2], position: [0, 0, -3.6]}, {shape: box, size: [7.4, 0.98, 0.2], position: [0, 0, 3.6]}'
+walls="$walls, {shape: box, size: [0.2, 0.98, 7.4], position: [-3.6, 0, 0]}, {shape: box, size: [0.2, 0.98, 7.4], position: [3.6, 0, 0]}"
+movie frost-bubble-turn frost-bubble 60 crop=456:256:12:14 "--spin --turns 1 --grow 0.16:0.6 --fps 12" --size 480x270 \
     --samples 16 --set "objects.wood.shape.envelope=[$walls]"
 still coast coast
 still karst karst
