@@ -39,7 +39,7 @@ void fft_transform(Complex *x, int64_t count, const Complex *root)
         for (int64_t start = 0; start < count; start += 2 * half) {
             for (int64_t k = 0; k < half; k++) {
                 Complex w = root[k * stride], a = x[start + k], b = x[start + k + half];
-                Complex t = {w.re * b.re - w.im * b.im, w.re * b.im + w.im * b.re};
+                Complex t = complex_times(w, b);
                 x[start + k] = (Complex){a.re + t.re, a.im + t.im};
                 x[start + k + half] = (Complex){a.re - t.re, a.im - t.im};
             }

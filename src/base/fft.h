@@ -11,6 +11,11 @@ typedef struct Complex {
     double re, im;
 } Complex;
 
+static inline Complex complex_times(Complex a, Complex b)
+{
+    return (Complex){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+
 // Roots exp(-2 pi i k / count), k < count / 2, for fft_transform. count: a power of two, >= 2. The
 // caller frees them.
 Complex *fft_roots(int64_t count, Error *e);

@@ -228,6 +228,18 @@ static inline Aabb aabb_union(Aabb a, Aabb b)
     return (Aabb){vec3_min(a.low, b.low), vec3_max(a.high, b.high)};
 }
 
+static inline Aabb aabb_common(Aabb a, Aabb b)
+{
+    return (Aabb){vec3_max(a.low, b.low), vec3_min(a.high, b.high)};
+}
+
+// Length of the longest side.
+static inline float aabb_extent(Aabb box)
+{
+    Vec3 size = vec3_sub(box.high, box.low);
+    return fmaxf(size.x, fmaxf(size.y, size.z));
+}
+
 static inline bool aabb_is_empty(Aabb box)
 {
     return box.low.x > box.high.x;

@@ -34,9 +34,7 @@ bool guide_field_add_to(const GuideField *field, const Envelope *envelope, int r
                         const char *name, GridFile *grids, const Run *run, Error *e)
 {
     Aabb box = envelope_bounds(envelope);
-    Vec3 size = vec3_sub(box.high, box.low);
-    float longest = fmaxf(size.x, fmaxf(size.y, size.z));
-    FieldSamples samples = {field, envelope, longest / (float)resolution};
+    FieldSamples samples = {field, envelope, aabb_extent(box) / (float)resolution};
     Vec3 margin = vec3_splat(2.0f * samples.voxel);
     Aabb around = {vec3_sub(box.low, margin), vec3_add(box.high, margin)};
     return grid_file_add_vectors(grids, name, around, samples.voxel, sample, &samples, run, e);

@@ -25,6 +25,9 @@ static double slip(const Slope *s, int64_t here, int64_t next, const int64_t bes
     if (square > s->repose * s->repose) {
         part += 0.18 * cell * along * (1.0 - s->repose / sqrt(square));
     }
+    if (part == 0.0) { // in most samples; the limits are calls
+        return 0.0;
+    }
     // Not below the plain.
     return fmax(fmin(part, 0.25 * fmax(h[here], 0.0)), -0.25 * fmax(h[next], 0.0));
 }

@@ -85,8 +85,7 @@ static double fit_dimension(BoxSet *set)
 // Chooses boxes over bounds, no finer than `finest`; false when they give too few sizes.
 static bool set_up(BoxSet *set, Aabb bounds, double finest)
 {
-    Vec3 size = vec3_sub(bounds.high, bounds.low);
-    double extent = (double)fmaxf(size.x, fmaxf(size.y, size.z));
+    double extent = (double)aabb_extent(bounds);
     *set = (BoxSet){.low = bounds.low};
     while (set->halvings < MAX_HALVINGS && extent > 2.0 * finest) {
         extent *= 0.5;

@@ -173,33 +173,47 @@ static void find_deepest(DepthField *f)
     }
 }
 
-bool depth_field_new(const Envelope *envelope, DepthField *f, Error *e)
+// A grid centred on the envelope's bounds; clamped: its distances do not reach the deepest point.
+static void place_grid(DepthField *f, bool clamped)
 {
-    Aabb box = envelope_bounds(envelope);
+    Aabb box = envelope_bounds(f->envelope);
     Vec3 size = vec3_sub(box.high, box.low);
-    bool clamped = isfinite(envelope_band(envelope));
     // the maximum of an exact distance needs only a coarse grid
     float cells = clamped ? (float)CELLS : (float)CELLS / 3.0f;
-    *f = (DepthField){.envelope = envelope};
     f->spacing = fmaxf(size.x, fmaxf(size.y, size.z)) / cells;
     float extent[3] = {size.x, size.y, size.z}, origin[3] = {box.low.x, box.low.y, box.low.z};
     for (int i = 0; i < 3; i++) {
-        // at least two outer nodes on each side, with the grid centred on the box
+        // at least two outer nodes on each side
         f->size[i] = (int)(extent[i] / f->spacing) + 5;
         origin[i] -= 0.5f * ((float)(f->size[i] - 1) * f->spacing - extent[i]);
     }
     f->origin = vec3(origin[0], origin[1], origin[2]);
+}
+
+DepthField *depth_field_new(const Envelope *envelope, Error *e)
+{
+    DepthField *f = memory_alloc_zero(1, sizeof *f, e);
+    if (!f) {
+        return NULL;
+    }
+    f->envelope = envelope;
+    bool clamped = isfinite(envelope_band(envelope));
+    place_grid(f, clamped);
     if (!clamped) {
         find_deepest(f);
-        return true;
+    } else if (!solve(f, e)) {
+        depth_field_free(f);
+        return NULL;
     }
-    return solve(f, e);
+    return f;
 }
 
 void depth_field_free(DepthField *field)
 {
-    free(field->depth);
-    field->depth = NULL;
+    if (field) {
+        free(field->depth);
+        free(field);
+    }
 }
 
 static float grid_depth(const DepthField *f, Vec3 p)

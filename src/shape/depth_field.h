@@ -15,9 +15,10 @@ typedef struct DepthField {
     float deepest; // m, the greatest depth
 } DepthField;
 
-// Solves |grad depth| = 1 by fast sweeping (Zhao 2005) on a grid of at most 96 cells a side.
-bool depth_field_new(const Envelope *envelope, DepthField *field, Error *e);
-void depth_field_free(DepthField *field);
+// Solves |grad depth| = 1 by fast sweeping (Zhao 2005) on a grid of at most 96 cells a side. To be
+// freed; NULL on error. envelope_depth keeps that of an envelope.
+DepthField *depth_field_new(const Envelope *envelope, Error *e);
+void depth_field_free(DepthField *field); // NULL is fine
 
 // Relative depth of a point p inside: 0 at the surface, 1 at the deepest point.
 float depth_field_at(const DepthField *field, Vec3 p);

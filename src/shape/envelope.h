@@ -41,6 +41,8 @@ typedef struct Shape {
     const char *object;             // SHAPE_OBJECT: its name; borrowed
 } Shape;
 
+enum { ENVELOPE_VOXELS = 128 }; // along the largest extent, by default
+
 typedef struct EnvelopeParams {
     const Shape *shapes; // borrowed
     int shape_count;     // >= 1
@@ -99,6 +101,11 @@ bool envelope_contains(const Envelope *envelope, Vec3 p);
 
 // Distance at which envelope_distance is clamped, m; INFINITY if it is exact.
 float envelope_band(const Envelope *envelope);
+
+// The depth below its surface: made when first asked for, then kept. Owned by the envelope; NULL on
+// error. Thread-safe.
+struct DepthField;
+const struct DepthField *envelope_depth(const Envelope *envelope, Error *e);
 
 // Is envelope_distance that to the surface everywhere, as of one primitive that is not sheared?
 bool envelope_is_exact(const Envelope *envelope);

@@ -28,7 +28,7 @@ static double unit_double(uint64_t key)
 // How near p is to the surface: 0 at the deepest place, 1 at the surface.
 static double outness(const Scatter *s, Vec3 p)
 {
-    return s->uses_depth ? 1.0 - (double)depth_field_at(&s->depth, p) : 0.0;
+    return s->depth ? 1.0 - (double)depth_field_at(s->depth, p) : 0.0;
 }
 
 // Density at p relative to a uniform one, before normalisation of shell and gradients; its maximum
@@ -41,7 +41,7 @@ static double weight_at(const Scatter *s, Vec3 p, double out)
     if (params->density) {
         weight *= (double)params->density(params->density_user, p);
     }
-    if (s->uses_depth) {
+    if (s->depth) {
         double out2 = out * out;
         weight *= 1.0 + (double)params->depth_gradient * (2.0 * out - 1.0);
         weight *= 1.0 - (double)params->shell + (double)params->shell * out2 * out2 / s->mean_shell;
@@ -53,7 +53,7 @@ static double largest_weight(const Scatter *s)
 {
     const ScatterParams *params = s->params;
     double weight = 1.0 + (double)fabsf(params->gradient);
-    if (s->uses_depth) {
+    if (s->depth) {
         weight *= 1.0 + (double)fabsf(params->depth_gradient);
         weight *= 1.0 - (double)params->shell + (double)params->shell / s->mean_shell;
     }
@@ -273,13 +273,16 @@ static bool scatter_prepare(const Envelope *envelope, const ScatterParams *param
     s->lowest = box.low.y;
     float height = box.high.y - box.low.y;
     s->inverse_height = height > 0.0f ? 1.0f / height : 0.0f;
-    s->uses_depth = volume && (params->shell > 0.0f || params->depth_gradient != 0.0f);
-    s->weighted = s->uses_depth || params->gradient != 0.0f || params->density;
+    bool uses_depth = volume && (params->shell > 0.0f || params->depth_gradient != 0.0f);
+    s->weighted = uses_depth || params->gradient != 0.0f || params->density;
     if (!volume && !sum_areas(s, e)) {
         return false;
     }
-    if (s->uses_depth && !depth_field_new(envelope, &s->depth, e)) {
-        return false;
+    if (uses_depth) {
+        s->depth = envelope_depth(envelope, e);
+        if (!s->depth) {
+            return false;
+        }
     }
     return !s->weighted || measure_weights(s, e);
 }
@@ -287,7 +290,6 @@ static bool scatter_prepare(const Envelope *envelope, const ScatterParams *param
 static void scatter_release(Scatter *s)
 {
     free(s->cumulative);
-    depth_field_free(&s->depth);
 }
 
 PointSet *points_scatter(const Envelope *envelope, const ScatterParams *params, const Run *run,

@@ -15,10 +15,9 @@ typedef struct Scatter {
     float lowest, inverse_height; // m, 1/m: of the region, for the gradient
     double *cumulative;           // SCATTER_SURFACE: cumulative area of the faces, m^2
     bool weighted;                // the density is not uniform
-    bool uses_depth;
-    DepthField depth;
-    double mean_shell;  // mean of the shell's density over the region
-    double mean_weight; // share of the draws inside the region that are kept
+    const DepthField *depth;      // the envelope's; NULL if the density does not depend on it
+    double mean_shell;            // mean of the shell's density over the region
+    double mean_weight;           // share of the draws inside the region that are kept
 } Scatter;
 
 typedef struct Draw {

@@ -60,10 +60,11 @@ static void directions_add_up(void **state)
     WaveSpectrum s = wave_spectrum(10.0, 1e5, 0.0);
     for (double ratio = 0.5; ratio < 20.0; ratio *= 1.7) {
         double sum = 0.0;
+        WaveRing ring = wave_spectrum_ring(&s, wave_number(ratio * s.peak, 0.0));
         for (int i = 0; i < 3600; i++) {
-            sum += wave_spectrum_spread(&s, ratio * s.peak, (i + 0.5) / 3600.0 * TURN - 0.5 * TURN);
+            sum += wave_ring_density(&ring, (i + 0.5) / 3600.0 * TURN - 0.5 * TURN);
         }
-        assert_true(fabs(sum * TURN / 3600.0 - 1.0) < 1e-4);
+        assert_true(fabs(sum * TURN / 3600.0 / ring.all - 1.0) < 1e-4);
     }
 }
 

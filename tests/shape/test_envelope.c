@@ -1,6 +1,7 @@
 // Envelopes against closed forms, each other and brute force.
 #include "base/memory.h"
 #include "base/random.h"
+#include "shape/depth_field.h"
 #include "shape/envelope.h"
 
 #include <math.h>
@@ -418,6 +419,34 @@ static void refuses_blends_that_it_cannot_make(void **state)
     assert_non_null(strstr(e.message, "no shape comes before it"));
 }
 
+// Of two boxes that overlap and make one: a level set, whose own distances end a few voxels deep.
+static void depth_is_known_everywhere_and_made_once(void **state)
+{
+    (void)state;
+    Shape halves[2] = {
+        shape_of(SHAPE_BOX, SHAPE_UNION, vec3(0.75f, 0.6f, 0.7f), vec3(-0.25f, 0, 0)),
+        shape_of(SHAPE_BOX, SHAPE_UNION, vec3(0.75f, 0.6f, 0.7f), vec3(0.25f, 0, 0))};
+    Envelope *box = make(halves, 2);
+    const DepthField *made[8] = {NULL};
+#pragma omp parallel for num_threads(4)
+    for (int i = 0; i < 8; i++) {
+        made[i] = envelope_depth(box, NULL);
+    }
+    for (int i = 0; i < 8; i++) {
+        assert_non_null(made[i]);
+        assert_ptr_equal(made[i], made[0]);
+    }
+    float cell = made[0]->spacing;
+    assert_true(fabsf(made[0]->deepest - 0.6f) < 1.5f * cell);
+    for (uint64_t n = 0; n < 200; n++) {
+        Vec3 p = random_point((Aabb){vec3(-1, -0.6f, -0.7f), vec3(1, 0.6f, 0.7f)}, n);
+        float depth = fminf(1.0f - fabsf(p.x), fminf(0.6f - fabsf(p.y), 0.7f - fabsf(p.z)));
+        float found = made[0]->deepest * depth_field_at(made[0], p);
+        assert_true(fabsf(found - fmaxf(depth, 0.0f)) < 1.5f * cell);
+    }
+    envelope_free(box);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -430,6 +459,7 @@ int main(void)
         cmocka_unit_test(refuses_what_is_no_envelope),
         cmocka_unit_test(edges_flow_over_a_blend),
         cmocka_unit_test(refuses_blends_that_it_cannot_make),
+        cmocka_unit_test(depth_is_known_everywhere_and_made_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,7 +19,7 @@ double fracture_body_outer(const FractureBody *body, Vec3 p)
 {
     float d = envelope_distance(body->envelope, p), height = body->bumps;
     if (d <= -0.9f * envelope_band(body->envelope)) {
-        d = -body->depth.deepest * depth_field_at(&body->depth, p);
+        d = -body->depth->deepest * depth_field_at(body->depth, p);
     }
     Vec3 q = vec3_scale(p, 1.0f / body->wavelength);
     for (uint64_t k = 0; k < BUMP_OCTAVES && height > 0.0f && fabsf(d) < 3.0f * height; k++) {
@@ -74,7 +74,6 @@ static bool make_envelope(FractureBody *body, const FractureParams *params, floa
         form.shapes = &ball;
         form.shape_count = 1;
     }
-    depth_field_free(&body->depth);
     envelope_free(body->envelope);
     body->envelope = envelope_new(&form, run, e);
     return body->envelope;
@@ -83,8 +82,7 @@ static bool make_envelope(FractureBody *body, const FractureParams *params, floa
 static void measure_envelope(FractureBody *body, const FractureParams *params)
 {
     body->box = envelope_bounds(body->envelope);
-    Vec3 size = vec3_sub(body->box.high, body->box.low);
-    body->extent = fmaxf(size.x, fmaxf(size.y, size.z));
+    body->extent = aabb_extent(body->box);
     body->bumps = params->weathering * body->extent;
     body->wavelength = 0.25f * body->extent;
     Vec3 margin = vec3_splat(2.0f * body->bumps);
@@ -105,8 +103,8 @@ static bool set_resolution(FractureBody *body, const FractureParams *params, flo
             return false;
         }
     }
-    depth_field_free(&body->depth);
-    return depth_field_new(body->envelope, &body->depth, e);
+    body->depth = envelope_depth(body->envelope, e);
+    return body->depth;
 }
 
 static bool refine(FractureBody *body, const FractureParams *params, const Recipe *recipe, Error *e)
@@ -152,7 +150,6 @@ bool fracture_body_new(FractureBody *body, const FractureParams *params, const R
 
 void fracture_body_clear(FractureBody *body)
 {
-    depth_field_free(&body->depth);
     envelope_free(body->envelope);
     *body = (FractureBody){0};
 }

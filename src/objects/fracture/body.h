@@ -11,8 +11,8 @@ enum { STREAM_CELLS = 5, STREAM_PIECES = 6, STREAM_BODY = 7 };
 
 typedef struct FractureBody {
     Envelope *envelope;
-    DepthField depth;
-    Aabb box; // m: of the body with its bumps
+    const DepthField *depth; // the envelope's
+    Aabb box;                // m: of the body with its bumps
     Vec3 center;
     float extent, voxel; // m: largest extent; voxel size of the level sets
     float hollow;

@@ -102,15 +102,13 @@ double wave_spectrum_at(const WaveSpectrum *s, double omega)
     return s->depth > 0.0 ? deep * depth_factor(omega, s->depth) : deep;
 }
 
-double wave_spectrum_spread(const WaveSpectrum *s, double omega, double angle)
+// Narrowness of the spread over directions.
+static double spread_beta(const WaveSpectrum *s, double omega)
 {
     double ratio = omega / s->peak;
-    double beta = ratio < 0.95  ? 2.61 * power(ratio < 0.56 ? 0.56 : ratio, 1.3)
-                  : ratio < 1.6 ? 2.28 * power(ratio, -1.3)
-                                : power(10.0, -0.4 + 0.8393 * power(ratio, -1.134));
-    double e = exact_exp(-beta * fabs(angle));
-    double sech = 2.0 * e / (1.0 + e * e);
-    return 0.5 * beta * sech * sech / hyperbolic_tangent(0.5 * beta * TURN);
+    return ratio < 0.95  ? 2.61 * power(ratio < 0.56 ? 0.56 : ratio, 1.3)
+           : ratio < 1.6 ? 2.28 * power(ratio, -1.3)
+                         : power(10.0, -0.4 + 0.8393 * power(ratio, -1.134));
 }
 
 // Share 0..1 of the ripples at a wave number.
@@ -131,12 +129,19 @@ void wave_spectrum_steepen(WaveSpectrum *s, double wind, double shortest, double
     s->ripples = lacking > 0.0 ? share * lacking / folds : 0.0;
 }
 
-double wave_spectrum_density(const WaveSpectrum *s, double k, double angle)
+WaveRing wave_spectrum_ring(const WaveSpectrum *s, double k)
 {
-    double omega = wave_frequency(k, s->depth);
+    double omega = wave_frequency(k, s->depth), beta = spread_beta(s, omega);
     double waves = wave_spectrum_at(s, omega) * wave_group_speed(k, s->depth) / k;
     double ripples = s->ripples * ripple_share(k) / (k * k * k * k);
-    return (waves + ripples) * wave_spectrum_spread(s, omega, angle);
+    return (WaveRing){waves + ripples, beta, hyperbolic_tangent(0.5 * beta * TURN)};
+}
+
+double wave_ring_density(const WaveRing *ring, double angle)
+{
+    double e = exact_exp(-ring->beta * fabs(angle));
+    double sech = 2.0 * e / (1.0 + e * e);
+    return ring->all * (0.5 * ring->beta * sech * sech / ring->within);
 }
 
 // Trapezoidal sum over the logarithm of the wave number of k^power times the spectrum.

@@ -25,11 +25,17 @@ void wave_spectrum_steepen(WaveSpectrum *s, double wind, double shortest, double
 // Variance per frequency at omega (rad/s), m^2 s; without the ripples.
 double wave_spectrum_at(const WaveSpectrum *s, double omega);
 
-// Share per radian of what runs at an angle from the wind.
-double wave_spectrum_spread(const WaveSpectrum *s, double omega, double angle);
+// What a spectrum has at one wave number, and how it spreads over the directions.
+typedef struct WaveRing {
+    double all;    // variance per area of wave numbers, m^4, times radian: of all directions
+    double beta;   // the spread is sech^2(beta angle)
+    double within; // tanh(pi beta): half its integral, times beta
+} WaveRing;
 
-// Variance per area of wave numbers, m^4, at wave number k (1/m) and that angle.
-double wave_spectrum_density(const WaveSpectrum *s, double k, double angle);
+WaveRing wave_spectrum_ring(const WaveSpectrum *s, double k); // k: 1/m
+
+// Variance per area of wave numbers, m^4, of what runs at an angle from the wind.
+double wave_ring_density(const WaveRing *ring, double angle);
 
 // Variance (m^2) of the surface: the integral over all frequencies.
 double wave_spectrum_variance(const WaveSpectrum *s);

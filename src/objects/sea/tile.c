@@ -2,20 +2,16 @@
 // and a random phase, which its frequency turns with time.
 #include "objects/sea/tile.h"
 
-#include "base/exact_math.h"
 #include "base/fft.h"
 #include "base/memory.h"
-#include "base/random.h"
+#include "objects/sea/tile_modes.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static const double TURN = 6.28318530717958647692;
-
 enum {
     SIDE = SEA_TILE_SIDE,
     LEAST_SIDE = 8, // of the coarsest level
-    SUBDIVISION = 4,
     TRAIL_STEPS = 16,
     SPILL_STEPS = 4,
     FOAM_STEPS = 16,
@@ -28,173 +24,12 @@ enum {
 #define SPILL_SECONDS 0.6 // by which a roller runs ahead of its crest at most
 #define SPILL_FADE 0.4    // crowding that it needs for a second
 
-// ---- waves
-
-// A wave of a tile at time 0, and its frequency. Waves beyond the band have no amplitude.
-typedef struct WaveMode {
-    Complex amplitude; // m
-    double omega;      // rad/s
-    double kx, kz, k;  // 1/m
-    double breaks;     // 0..1: share of it in what breaks
-} WaveMode;
-
 typedef struct Synthesis {
     SeaTile with;
     WaveTile *tile;
-    WaveMode *mode; // owned: MODES a side, of numbers -MOST_NUMBER .. MOST_NUMBER
+    WaveMode *mode; // owned; from sea_modes
     double spread;  // of the crowding: its standard deviation
 } Synthesis;
-
-enum { MOST_NUMBER = SIDE / 4, MODES = 2 * MOST_NUMBER + 1 };
-
-// Waves of four samples or more.
-static bool in_band(const Synthesis *s, double k)
-{
-    return k >= s->with.low && k < s->with.high;
-}
-
-// Mean of the spectrum's density over the mode's cell of wave numbers, within the band.
-static double cell_density(const Synthesis *s, double m, double n)
-{
-    double step = TURN / (double)s->tile->size;
-    Vec2 way = sea_way(s->with.params);
-    double sum = 0.0;
-    for (int i = 0; i < SUBDIVISION * SUBDIVISION; i++) {
-        int column = i % SUBDIVISION, row = i / SUBDIVISION;
-        double u = (m + (column + 0.5) / SUBDIVISION - 0.5) * step;
-        double v = (n + (row + 0.5) / SUBDIVISION - 0.5) * step;
-        double k = sqrt(u * u + v * v);
-        double cosine = (double)s->tile->cosine, sine = (double)s->tile->sine;
-        double x = u * cosine - v * sine, z = u * sine + v * cosine;
-        if (in_band(s, k)) {
-            double ahead = x * (double)way.x + z * (double)way.y;
-            double aside = z * (double)way.x - x * (double)way.y;
-            double angle = (double)exact_atan2((float)aside, (float)ahead);
-            sum += wave_spectrum_density(&s->with.spectrum, k, angle);
-        }
-    }
-    return sum / (SUBDIVISION * SUBDIVISION);
-}
-
-static void turn(double phase, double *sine, double *cosine)
-{
-    exact_sincos_double(phase - TURN * floor(phase / TURN), sine, cosine);
-}
-
-static WaveMode mode_at(const Synthesis *s, int m, int n)
-{
-    double step = TURN / (double)s->tile->size;
-    double u = m * step, v = n * step;
-    double cosine = (double)s->tile->cosine, sine = (double)s->tile->sine;
-    WaveMode mode = {.kx = u * cosine - v * sine, .kz = u * sine + v * cosine};
-    mode.k = sqrt(u * u + v * v);
-    // A cell that overlaps the band's end is partly in it.
-    double reach = 0.75 * step;
-    if ((m == 0 && n == 0) || mode.k < s->with.low - reach || mode.k > s->with.high + reach) {
-        return mode;
-    }
-    double height = sqrt(0.5 * cell_density(s, m, n)) * step;
-    uint64_t column = (uint64_t)((int64_t)m + MOST_NUMBER);
-    uint64_t row = (uint64_t)((int64_t)n + MOST_NUMBER);
-    uint64_t key = random_key(random_key(s->with.key, column), row);
-    double phase = TURN * (double)random_unit(key);
-    double re, im;
-    turn(phase, &im, &re);
-    mode.amplitude = (Complex){height * re, height * im};
-    mode.omega = wave_frequency(mode.k, s->with.spectrum.depth);
-    double ratio = mode.k * s->with.breaker / TURN;
-    mode.breaks = exact_exp(-ratio * ratio);
-    return mode;
-}
-
-static bool find_modes(Synthesis *s, Error *e)
-{
-    s->mode = memory_alloc((int64_t)MODES * MODES, sizeof *s->mode, e);
-    if (!s->mode) {
-        return false;
-    }
-#pragma omp parallel for schedule(dynamic, 4) num_threads(s->with.run->threads)
-    for (int n = -MOST_NUMBER; n <= MOST_NUMBER; n++) {
-        for (int m = -MOST_NUMBER; m <= MOST_NUMBER; m++) {
-            s->mode[(n + MOST_NUMBER) * MODES + m + MOST_NUMBER] = mode_at(s, m, n);
-        }
-    }
-    return true;
-}
-
-static Complex times(Complex a, Complex b)
-{
-    return (Complex){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
-}
-
-// The phase of a wave at the place and the time of the great wave's crest.
-static double phase_at_crest(const Synthesis *s, const WaveMode *mode)
-{
-    const SeaParams *params = s->with.params;
-    return mode->kx * (double)params->crest[0] + mode->kz * (double)params->crest[1] -
-           mode->omega * (double)params->crest_time;
-}
-
-// Adds the great wave: to each wave a part in proportion to its variance that is in phase with all
-// others at the crest, which makes the mean surface about a crest of this height; what the random
-// waves have there already is taken off (Tromans et al. 1991; Taylor et al. 1997).
-static void add_crest(Synthesis *s)
-{
-    double have = 0.0, most = 0.0;
-    for (int i = 0; i < MODES * MODES; i++) {
-        const WaveMode *mode = &s->mode[i];
-        Complex a = mode->amplitude;
-        double sine, cosine;
-        turn(phase_at_crest(s, mode), &sine, &cosine);
-        have += 2.0 * (a.re * cosine - a.im * sine);
-        most += 2.0 * (a.re * a.re + a.im * a.im);
-    }
-    double factor = most > 0.0 ? ((double)s->with.params->crest_height - have) / most : 0.0;
-    for (int i = 0; i < MODES * MODES; i++) {
-        WaveMode *mode = &s->mode[i];
-        Complex *a = &mode->amplitude;
-        double sine, cosine, part = factor * (a->re * a->re + a->im * a->im);
-        turn(-phase_at_crest(s, mode), &sine, &cosine);
-        a->re += part * cosine;
-        a->im += part * sine;
-    }
-}
-
-// The coefficient of exp(i k x) at a time: that wave and the one that runs against it.
-static Complex coefficient(const WaveMode *with, const WaveMode *against, double time)
-{
-    double sine, cosine;
-    turn(with->omega * time, &sine, &cosine);
-    Complex a = times(with->amplitude, (Complex){cosine, -sine});
-    Complex b = times(against->amplitude, (Complex){cosine, -sine});
-    return (Complex){a.re + b.re, a.im - b.im};
-}
-
-// The factor on that coefficient for a channel.
-static Complex factor(const WaveMode *mode, int channel)
-{
-    double k = mode->k > 0.0 ? mode->k : 1.0;
-    switch (channel) {
-    case WAVE_HEIGHT:
-        return (Complex){1.0, 0.0};
-    case WAVE_ASIDE_X:
-        return (Complex){0.0, mode->kx / k};
-    case WAVE_ASIDE_Z:
-        return (Complex){0.0, mode->kz / k};
-    case WAVE_SLOPE_X:
-        return (Complex){0.0, mode->kx};
-    case WAVE_SLOPE_Z:
-        return (Complex){0.0, mode->kz};
-    case WAVE_STRETCH_XX:
-        return (Complex){-mode->kx * mode->kx / k, 0.0};
-    case WAVE_STRETCH_ZZ:
-        return (Complex){-mode->kz * mode->kz / k, 0.0};
-    case WAVE_STRETCH_XZ:
-        return (Complex){-mode->kx * mode->kz / k, 0.0};
-    default:
-        return (Complex){k * mode->breaks, 0.0};
-    }
-}
 
 // ---- transforms
 
@@ -256,15 +91,17 @@ static void fill(const Synthesis *s, Square *q, WaveField first, WaveField secon
     int most = q->side / 4;
     for (int n = -most; n <= most; n++) {
         for (int m = -most; m <= most; m++) {
-            const WaveMode *with = &s->mode[(n + MOST_NUMBER) * MODES + m + MOST_NUMBER];
-            const WaveMode *against = &s->mode[(MOST_NUMBER - n) * MODES + MOST_NUMBER - m];
+            const WaveMode *with =
+                &s->mode[(n + SEA_MOST_NUMBER) * SEA_MODES + m + SEA_MOST_NUMBER];
+            const WaveMode *against =
+                &s->mode[(SEA_MOST_NUMBER - n) * SEA_MODES + SEA_MOST_NUMBER - m];
             if (with->omega == 0.0 && against->omega == 0.0) {
                 continue;
             }
-            Complex at = coefficient(with, against, first.time);
-            Complex a = times(at, factor(with, first.channel));
-            at = second.time != first.time ? coefficient(with, against, second.time) : at;
-            Complex b = times(at, factor(with, second.channel));
+            Complex at = wave_coefficient(with, against, first.time);
+            Complex a = complex_times(at, wave_factor(with, first.channel));
+            at = second.time != first.time ? wave_coefficient(with, against, second.time) : at;
+            Complex b = complex_times(at, wave_factor(with, second.channel));
             int column = (q->side - m) % q->side, row = (q->side - n) % q->side;
             q->value[(int64_t)row * q->side + column] = (Complex){a.re - b.im, a.im + b.re};
         }
@@ -351,27 +188,12 @@ static bool make_level(const Synthesis *s, int level, Error *e)
     return true;
 }
 
-// Standard deviation of the crowding.
-static double crowding_spread(const Synthesis *s)
-{
-    double squares = 0.0;
-    for (int i = 0; i < MODES * MODES; i++) {
-        const WaveMode *mode = &s->mode[i];
-        double crowding = mode->k * mode->breaks;
-        Complex a = mode->amplitude;
-        squares += 2.0 * crowding * crowding * (a.re * a.re + a.im * a.im);
-    }
-    return sqrt(squares);
-}
-
 bool sea_tile_fill(const SeaTile *with, WaveTile *tile, Error *e)
 {
     Synthesis s = {.with = *with, .tile = tile};
-    bool done = find_modes(&s, e);
-    if (done && with->has_crest && with->params->crest_height > 0.0f) {
-        add_crest(&s);
-    }
-    s.spread = done ? crowding_spread(&s) : 0.0;
+    s.mode = sea_modes(with, tile, e);
+    bool done = s.mode;
+    s.spread = done ? wave_modes_crowding(s.mode) : 0.0;
     tile->levels = 0;
     while (tile->levels < WAVES_LEVELS && SIDE >> tile->levels >= LEAST_SIDE) {
         tile->levels++;

@@ -50,7 +50,7 @@ float cloud_spray_voxel(const SprayParcels *spray)
     }
     Aabb box = box_of(spray, 0.0f);
     Vec3 size = vec3_sub(box.high, box.low);
-    voxel = fmaxf(voxel, fmaxf(size.x, fmaxf(size.y, size.z)) / MOST_ACROSS);
+    voxel = fmaxf(voxel, aabb_extent(box) / MOST_ACROSS);
     double samples = 0.0; // about, if none overlap
     for (int64_t i = 0; i < spray->count; i++) {
         double each = 1.0;
