@@ -36,8 +36,8 @@ void pattern_ice(const Material *m, const SurfacePoint *point, PatternShade *sha
     float thick = smoothstepf(0.25f, 0.9f, patches.value);
     float density = 0.02f + 0.1f * haze + 0.3f * thick;
     float clear = 1.0f - 0.02f * haze - 0.1f * thick;
-    clear *= 1.0f - grains(point, 0.05f * scale, 0.5f * density, SEED_GRAINS);
-    clear *= 1.0f - grains(point, 0.018f * scale, density, SEED_GRAINS + 10);
+    clear *= 1.0f - grains(point, 0.034f * scale, 0.4f * density, SEED_GRAINS);
+    clear *= 1.0f - grains(point, 0.012f * scale, density, SEED_GRAINS + 10);
     shade->roughness = fminf(1.0f, m->roughness + DULLER * haze);
     shade->foam = 1.0f - clear;
     shade->color = vec3_lerp(shade->color, m->color2, shade->foam);
