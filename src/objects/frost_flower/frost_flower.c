@@ -20,9 +20,15 @@ enum {
 };
 // Of a node's id: of its two sides, and SIDE + side of each.
 enum { STREAM_BOTH = 1, STREAM_SIDE = 10 };
-enum { STREAM_REACH = 1, STREAM_SKIP = 2, STREAM_ANGLE = 3 };    // of a side's key
+enum { STREAM_REACH = 1, STREAM_SKIP = 2, STREAM_ANGLE = 3 }; // of a side's key
 // Of the object's seed; WAVES and the numbers after it.
-enum { STREAM_OPEN = 1, STREAM_FEATHERS = 2, STREAM_ROOTS = 3, STREAM_CROWNS = 4, STREAM_WAVES = 10 };
+enum {
+    STREAM_OPEN = 1,
+    STREAM_FEATHERS = 2,
+    STREAM_ROOTS = 3,
+    STREAM_CROWNS = 4,
+    STREAM_WAVES = 10
+};
 
 #define GOLDEN_ANGLE 2.39996323f // radians
 #define FINER 0.42f              // distance between sides, in that of the order before
@@ -191,8 +197,8 @@ typedef struct Uneven {
     Vec3 foot;     // m to add
 } Uneven;
 
-// Crystals stand in tufts with gaps between them, those toward the vapour grow long and those in the
-// lee of older ones stay short, and a plate seldom stays flat as it grows.
+// Crystals stand in tufts with gaps between them, those toward the vapour grow long and those in
+// the lee of older ones stay short, and a plate seldom stays flat as it grows.
 static Uneven uneven_of(const FrostFlowerParams *params, int i, float azimuth, uint64_t key,
                         uint64_t seed)
 {
@@ -205,8 +211,8 @@ static Uneven uneven_of(const FrostFlowerParams *params, int i, float azimuth, u
     azimuth += n.azimuth;
     n.tilt = 26.0f * most * wave_about(seed, 1, azimuth);
     float stunt = random_unit(random_key(key, STREAM_STUNT));
-    n.length = (1.0f + 0.3f * most * wave_about(seed, 2, azimuth)) *
-               (1.0f - 0.6f * most * stunt * stunt);
+    n.length =
+        (1.0f + 0.3f * most * wave_about(seed, 2, azimuth)) * (1.0f - 0.6f * most * stunt * stunt);
     n.sway = 1.0f + 1.6f * most;
     n.twist = 0.9f * most * random_normal(random_key(key, STREAM_TWIST));
     uint64_t crown = random_key(random_key(seed, STREAM_CROWNS), (uint64_t)(i % CROWNS));
@@ -241,15 +247,14 @@ static bool grow_feather(Flower *flower, int i, float open, uint64_t seed, Error
         params->bend * (0.4f + 0.6f * u) + 22.0f * random_normal(random_key(key, STREAM_BEND));
     bend = clampf(bend, -60.0f, 95.0f - tilt); // its tip hangs, but not into the ice
     float short_by = random_unit(random_key(key, STREAM_LENGTH)); // few are short
-    Plan plan = {
-        .length =
-            0.5f * params->size * lerpf(0.8f, 1.0f, u) * (1.05f - 0.55f * short_by * short_by) *
-            uneven.length,
-        .curl = 0.25f * uneven.sway * random_normal(random_key(key, STREAM_SWAY)),
-        .bend = bend * RADIANS_PER_DEGREE,
-        .cup = random_range(random_key(key, STREAM_CUP), -0.1f, 0.35f),
-        .width = params->feather_width * random_range(random_key(key, STREAM_WIDTH), 0.75f, 1.2f),
-        .twist = uneven.twist};
+    Plan plan = {.length = 0.5f * params->size * lerpf(0.8f, 1.0f, u) *
+                           (1.05f - 0.55f * short_by * short_by) * uneven.length,
+                 .curl = 0.25f * uneven.sway * random_normal(random_key(key, STREAM_SWAY)),
+                 .bend = bend * RADIANS_PER_DEGREE,
+                 .cup = random_range(random_key(key, STREAM_CUP), -0.1f, 0.35f),
+                 .width = params->feather_width *
+                          random_range(random_key(key, STREAM_WIDTH), 0.75f, 1.2f),
+                 .twist = uneven.twist};
     Vec3 foot = vec3_add(vec3_scale(out, 0.05f * params->size * u), uneven.foot);
     uint64_t id = random_key(random_key(seed, STREAM_ROOTS), (uint64_t)i);
     shoot.node = out_tree_add_node(flower->tree, foot, -1, 0, i, id, e);

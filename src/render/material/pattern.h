@@ -8,8 +8,8 @@
 
 typedef struct PatternShade {
     Vec3 color, transmittance;
-    Vec3 normal; // unit; on the side of the point's normal
-    float foam;  // of water and ice: share of the pixel that is white, without gloss
+    Vec3 normal;     // unit; on the side of the point's normal
+    float foam;      // of water and ice: share of the pixel that is white, without gloss
     float roughness; // of the gloss; the material's own unless the pattern changes it
 } PatternShade;
 

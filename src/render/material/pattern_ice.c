@@ -1,13 +1,13 @@
-// Young ice under a clear, cold night: dark and glossy, dulled in patches by a haze of frost too fine
-// to see, and dusted with grains of rime, most where the haze is thickest. Each white grain has no
-// gloss of its own. A pixel too large for a size of grains shows their mean.
+// Young ice under a clear, cold night: dark and glossy, dulled in patches by a haze of frost too
+// fine to see, and dusted with grains of rime, most where the haze is thickest. Each white grain
+// has no gloss of its own. A pixel too large for a size of grains shows their mean.
 #include "render/material/pattern.h"
 #include "render/material/pattern_noise.h"
 
 #include <stddef.h>
 
 #define DULLER 0.38f      // roughness that the thickest haze adds
-#define GRAIN_SHARE 0.29f // of the surface, if there is a grain in each cell
+#define GRAIN_SHARE 0.24f // of the surface, if there is a grain in each cell
 
 enum { SEED_HAZE = 301, SEED_BUMPS = 321, SEED_GRAINS = 341 };
 
