@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-#define DULLER 0.38f      // roughness that the thickest haze adds
-#define GRAIN_SHARE 0.24f // of the surface, if there is a grain in each cell
+#define DULLER 0.38f       // roughness that the thickest haze adds
+#define GRAIN_SHARE 0.175f // of the surface, if there is a grain in each cell
 
 enum { SEED_HAZE = 301, SEED_BUMPS = 321, SEED_GRAINS = 341 };
 
@@ -20,7 +20,8 @@ static float grains(const SurfacePoint *point, float size, float density, uint32
     }
     Vec3 p = vec3_scale(point->object_position, 1.0f / size), n = surface_smooth_normal(point);
     CellPoint cell = noise_cells_on(p, n, seed);
-    float radius = lerpf(0.14f, 0.4f, noise_unit(cell.cell, seed + 1));
+    float u = noise_unit(cell.cell, seed + 1); // most are small
+    float radius = lerpf(0.1f, 0.44f, u * u);
     radius *= 1.0f + 0.5f * noise_solid(vec3_scale(p, 3.1f), seed + 2, NULL); // ragged
     Vec3 away = vec3_madd(cell.point, -vec3_dot(cell.point, n), n);
     float inside = 1.0f - smoothstepf(0.75f, 1.1f, vec3_length(away) / radius);
@@ -34,7 +35,7 @@ void pattern_ice(const Material *m, const SurfacePoint *point, PatternShade *sha
     PatternOctaves patches = pattern_octaves(point, scale, 4, 0.55f, 1.0f, SEED_HAZE);
     float haze = smoothstepf(-0.25f, 0.7f, patches.value);
     float thick = smoothstepf(0.25f, 0.9f, patches.value);
-    float density = 0.02f + 0.1f * haze + 0.3f * thick;
+    float density = 0.03f + 0.13f * haze + 0.4f * thick;
     float clear = 1.0f - 0.02f * haze - 0.1f * thick;
     clear *= 1.0f - grains(point, 0.034f * scale, 0.4f * density, SEED_GRAINS);
     clear *= 1.0f - grains(point, 0.012f * scale, density, SEED_GRAINS + 10);
