@@ -116,7 +116,8 @@ static Vec3 pattern_color(const ExportSurface *surface, const Transform *place, 
     point.season = look.season;
     material.variation = look.variation < 0.0f ? 0.0f : material.variation;
     material.pattern_depth = 0.0f; // only the colour is used
-    PatternShade shade = {material.color, material.transmittance, point.normal, 0.0f};
+    PatternShade shade = {material.color, material.transmittance, point.normal, 0.0f,
+                          material.roughness};
     pattern_apply(&material, &point, &shade);
     return shade.color;
 }

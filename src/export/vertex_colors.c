@@ -34,7 +34,8 @@ static SurfacePoint curve_point(const CurveSet *curves, int64_t i, bool last)
 
 static Vec3 color_at(const Material *material, const SurfacePoint *point)
 {
-    PatternShade shade = {material->color, material->transmittance, point->normal, 0.0f};
+    PatternShade shade = {material->color, material->transmittance, point->normal, 0.0f,
+                          material->roughness};
     pattern_apply(material, point, &shade);
     return vec3_max(vec3_min(shade.color, vec3_splat(1.0f)), vec3_splat(0.0f));
 }

@@ -53,6 +53,7 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"delta", PATTERN_DELTA},
                                     {"silt", PATTERN_SILT},
                                     {"heath", PATTERN_HEATH},
+                                    {"ice", PATTERN_ICE},
                                     {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED},
@@ -199,7 +200,10 @@ static const Key MATERIAL_KEYS[] = {
          "willows on levees and meadows of a river's delta; silt: its water, from the clear sea "
          "(color) to the river's mud (color2), with the bed in shoals; heath: open slopes of "
          "mountains: dry and lush grass (color), bushes, stones, and worn tracks of soil (color2) "
-         "down steep ground, in patches of pattern_scale; none: one colour."},
+         "down steep ground, in patches of pattern_scale; ice: new ice, best of kind principled, "
+         "dark "
+         "and glossy (color), dull with haze in patches of pattern_scale and dusted with grains of "
+         "rime (color2); none: one colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
             "and ash, on thick branches; with a pattern_scale below 0.02, as of a miniature tree, "

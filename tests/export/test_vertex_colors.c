@@ -60,7 +60,8 @@ static Agreement compare(const World *world, const Accel *accel, const Part *par
         }
         const Material *material = &world->material[part->material];
         point.footprint = footprint;
-        PatternShade shade = {material->color, material->transmittance, point.normal, 0.0f};
+        PatternShade shade = {material->color, material->transmittance, point.normal, 0.0f,
+                              material->roughness};
         pattern_apply(material, &point, &shade);
         sum.met++;
         sum.difference += (double)vec3_distance(shade.color, color[i]);

@@ -86,6 +86,7 @@ static void sides_lie_in_the_plane_of_their_feather(void **state)
 {
     (void)state;
     FrostFlowerParams params = frost_flower_params_default();
+    params.uneven = 1.0f; // with twisted feathers, too
     Grown grown = grow(&params, 4);
     const OutTree *tree = grown.tree;
     int64_t left = 0, right = 0;
@@ -204,6 +205,67 @@ static void size_scales_and_seeds_differ(void **state)
     grown_clear(&large);
 }
 
+// Of the tips of the feathers seen from above: how far their mean is from the foot, in their mean
+// distance, and the widest gap between two neighbours of the outer half, degrees.
+static void spread_of(const OutTree *tree, double *off, double *gap)
+{
+    enum { MOST = 64 };
+    double azimuth[MOST], x = 0.0, z = 0.0, reach = 0.0;
+    Vec3 tip[MOST] = {0};
+    int feathers = 0, outer = 0;
+    int32_t *order = orders_of(tree);
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (order[i] == 0) { // a rib's last node comes last
+            tip[tree->colony[i]] = tree->position[i];
+            feathers = tree->colony[i] + 1 > feathers ? tree->colony[i] + 1 : feathers;
+        }
+    }
+    free(order);
+    for (int i = 0; i < feathers; i++) {
+        x += (double)tip[i].x / feathers;
+        z += (double)tip[i].z / feathers;
+        reach += hypot((double)tip[i].x, (double)tip[i].z) / feathers;
+        if (i < feathers / 2) { // upright: of no clear azimuth
+            continue;
+        }
+        double a = atan2((double)tip[i].z, (double)tip[i].x) * 180.0 / M_PI;
+        int at = outer++;
+        for (; at > 0 && azimuth[at - 1] > a; at--) {
+            azimuth[at] = azimuth[at - 1];
+        }
+        azimuth[at] = a;
+    }
+    *off = hypot(x, z) / reach;
+    *gap = azimuth[0] + 360.0 - azimuth[outer - 1];
+    for (int i = 1; i < outer; i++) {
+        *gap = azimuth[i] - azimuth[i - 1] > *gap ? azimuth[i] - azimuth[i - 1] : *gap;
+    }
+}
+
+static void uneven_flowers_lean_and_have_gaps(void **state)
+{
+    (void)state;
+    double off[2] = {0}, gap[2] = {0};
+    enum { SEEDS = 12 };
+    for (int uneven = 0; uneven < 2; uneven++) {
+        for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+            FrostFlowerParams params = frost_flower_params_default();
+            params.orders = 1;
+            params.uneven = (float)uneven;
+            Grown grown = grow(&params, seed);
+            double o, g;
+            spread_of(grown.tree, &o, &g);
+            off[uneven] += o / SEEDS;
+            gap[uneven] += g / SEEDS;
+            grown_clear(&grown);
+        }
+    }
+    print_message("mean tip off the foot %.2f, uneven %.2f; widest gap %.0f, uneven %.0f degrees\n",
+                  off[0], off[1], gap[0], gap[1]);
+    assert_true(off[0] < 0.12 && off[1] > 2.0 * off[0]);
+    assert_true(gap[0] < 60.0 && gap[1] > 1.2 * gap[0]);
+}
+
 static void blades_are_closed_and_shared_out(void **state)
 {
     (void)state;
@@ -259,6 +321,7 @@ int main(void)
         cmocka_unit_test(sides_end_before_their_neighbours),
         cmocka_unit_test(it_stands_on_the_ice_and_has_its_size),
         cmocka_unit_test(size_scales_and_seeds_differ),
+        cmocka_unit_test(uneven_flowers_lean_and_have_gaps),
         cmocka_unit_test(blades_are_closed_and_shared_out),
         cmocka_unit_test(a_cancelled_growth_stops),
     };

@@ -20,7 +20,7 @@ static PatternShade shade_at(const Material *m, float season, float u, float var
                           .normal = {0, 0, 1},
                           .tangent_u = {1, 0, 0},
                           .tangent_v = {0, 1, 0}};
-    PatternShade shade = {m->color, m->transmittance, point.normal, 0.0f};
+    PatternShade shade = {m->color, m->transmittance, point.normal, 0.0f, m->roughness};
     pattern_apply(m, &point, &shade);
     return shade;
 }
@@ -82,7 +82,7 @@ static PatternShade withered_at(const Material *m, float withered)
                           .normal = {0, 0, 1},
                           .tangent_u = {1, 0, 0},
                           .tangent_v = {0, 1, 0}};
-    PatternShade shade = {m->color, m->transmittance, point.normal, 0.0f};
+    PatternShade shade = {m->color, m->transmittance, point.normal, 0.0f, m->roughness};
     pattern_apply(m, &point, &shade);
     return shade;
 }

@@ -112,7 +112,7 @@ static Material bark(void)
 
 static PatternShade shade_of(const Material *m, const SurfacePoint *p)
 {
-    PatternShade shade = {m->color, m->transmittance, p->normal, 0.0f};
+    PatternShade shade = {m->color, m->transmittance, p->normal, 0.0f, m->roughness};
     pattern_apply(m, p, &shade);
     assert_true(vec3_finite(shade.color) && vec3_finite(shade.normal));
     assert_float_equal(vec3_length(shade.normal), 1.0f, 1e-3f);
@@ -831,6 +831,69 @@ static void test_noise_tints_light_that_passes_a_leaf(void **state)
     assert_true(least < 0.6f && most > 0.9f && most <= 1.0f + 1e-5f);
 }
 
+// Places of level ice where a pixel of this size (m) is seen.
+static SurfacePoint ice_at(int i, float footprint)
+{
+    SurfacePoint p = {.normal = vec3(0, 1, 0), .geometric_normal = vec3(0, 1, 0)};
+    p.object_position = random_point((uint64_t)i, 2.0f);
+    p.object_position.y = 0.0f;
+    p.footprint = footprint;
+    return p;
+}
+
+// Large pixels see the mean of the grains that small ones see, and most are where it is dull.
+static void test_ice(void **state)
+{
+    (void)state;
+    enum { PLACES = 40000 };
+    Material m = material_default(MATERIAL_PRINCIPLED);
+    m.pattern = PATTERN_ICE;
+    m.pattern_scale = 0.1f;
+    m.roughness = 0.1f;
+    double near = 0.0, far = 0.0, white[2] = {0};
+    int places[2] = {0};
+    float least = 1.0f, most = 0.0f;
+    for (int i = 0; i < PLACES; i++) {
+        SurfacePoint fine = ice_at(i, 1e-5f), coarse = ice_at(i, 3e-3f);
+        PatternShade a = shade_of(&m, &fine), b = shade_of(&m, &coarse);
+        assert_true(a.foam >= 0.0f && a.foam <= 1.0f && a.roughness >= m.roughness);
+        near += (double)a.foam / PLACES;
+        far += (double)b.foam / PLACES;
+        least = fminf(least, a.roughness), most = fmaxf(most, a.roughness);
+        int dull = a.roughness > 0.3f;
+        places[dull]++;
+        white[dull] += (double)a.foam;
+    }
+    white[0] /= places[0], white[1] /= places[1];
+    print_message("white %.4f near, %.4f far; clear %.4f, dull %.4f; roughness %.2f to %.2f\n",
+                  near, far, white[0], white[1], (double)least, (double)most);
+    assert_true(fabs(near / far - 1.0) < 0.08);
+    assert_true(white[0] > 0.0 && white[1] > 3.0 * white[0]);
+    assert_true(least == m.roughness && most > 0.4f);
+}
+
+// The roughness of the place reaches the surface's lobe: a dull patch is that of a dull material.
+static void test_ice_is_dull_in_patches(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_PRINCIPLED);
+    m.pattern = PATTERN_ICE;
+    m.roughness = 0.1f;
+    MaterialSet *set = material_set_new(&m, NULL, 1, NULL, NULL);
+    assert_non_null(set);
+    float least = 1.0f, most = 0.0f;
+    for (int i = 0; i < 400; i++) {
+        SurfacePoint p = ice_at(i, 1e-4f);
+        Bsdf b;
+        bsdf_fill(set, &p, vec3(0.6f, 0.8f, 0.0f), &b);
+        float roughness = shade_of(&m, &p).roughness;
+        assert_float_equal(b.alpha, roughness * roughness, 1e-6f);
+        least = fminf(least, b.alpha), most = fmaxf(most, b.alpha);
+    }
+    assert_true(most > 5.0f * least);
+    material_set_free(set);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -864,6 +927,8 @@ int main(void)
         cmocka_unit_test(test_dressed_stone),
         cmocka_unit_test(test_noise_pattern),
         cmocka_unit_test(test_noise_tints_light_that_passes_a_leaf),
+        cmocka_unit_test(test_ice),
+        cmocka_unit_test(test_ice_is_dull_in_patches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

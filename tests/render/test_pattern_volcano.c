@@ -31,7 +31,7 @@ static PatternShade lava_at(float x, float z, float footprint)
     SurfacePoint p = {.normal = n, .geometric_normal = n, .footprint = footprint};
     p.position = p.object_position = vec3(x, -SLOPE * x, z);
     p.site = (Vec2){0.3f, 0.9f};
-    PatternShade shade = {m.color, m.transmittance, n, 0.0f};
+    PatternShade shade = {m.color, m.transmittance, n, 0.0f, m.roughness};
     pattern_apply(&m, &p, &shade);
     assert_true(vec3_finite(shade.color) && vec3_finite(shade.normal));
     return shade;

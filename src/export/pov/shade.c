@@ -35,7 +35,7 @@ static Vec3 clamp_color(Vec3 c)
 
 static PatternShade shade_at(const Material *m, const SurfacePoint *point)
 {
-    PatternShade shade = {m->color, m->transmittance, point->normal, 0.0f};
+    PatternShade shade = {m->color, m->transmittance, point->normal, 0.0f, m->roughness};
     pattern_apply(m, point, &shade);
     shade.color = clamp_color(shade.color);
     shade.transmittance = clamp_color(shade.transmittance);
@@ -93,7 +93,8 @@ bool pov_shade_mesh(const Material *m, const Mesh *mesh, const Transform *place,
     }
 #pragma omp parallel for schedule(dynamic, 1024) num_threads(run->threads)
     for (int64_t v = 0; v < mesh->vertex_count; v++) {
-        PatternShade shade = {m->color, m->transmittance, vec3(0.0f, 1.0f, 0.0f), 0.0f};
+        PatternShade shade = {m->color, m->transmittance, vec3(0.0f, 1.0f, 0.0f), 0.0f,
+                              m->roughness};
         if (face[v] >= 0) {
             SurfacePoint point = vertex_point(mesh, (uint32_t)v, face[v], place, look);
             shade = shade_at(m, &point);

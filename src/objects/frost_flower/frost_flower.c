@@ -14,16 +14,26 @@ enum {
     STREAM_BEND = 5,
     STREAM_WIDTH = 6,
     STREAM_SWAY = 7,
-    STREAM_CUP = 8
+    STREAM_CUP = 8,
+    STREAM_TWIST = 9,
+    STREAM_STUNT = 10
 };
 // Of a node's id: of its two sides, and SIDE + side of each.
 enum { STREAM_BOTH = 1, STREAM_SIDE = 10 };
-enum { STREAM_REACH = 1, STREAM_SKIP = 2, STREAM_ANGLE = 3 };    // of a side's key
-enum { STREAM_OPEN = 1, STREAM_FEATHERS = 2, STREAM_ROOTS = 3 }; // of the object's seed
+enum { STREAM_REACH = 1, STREAM_SKIP = 2, STREAM_ANGLE = 3 }; // of a side's key
+// Of the object's seed; WAVES and the numbers after it.
+enum {
+    STREAM_OPEN = 1,
+    STREAM_FEATHERS = 2,
+    STREAM_ROOTS = 3,
+    STREAM_CROWNS = 4,
+    STREAM_WAVES = 10
+};
 
 #define GOLDEN_ANGLE 2.39996323f // radians
 #define FINER 0.42f              // distance between sides, in that of the order before
 #define BIRTHS 600.0f            // steps of growth in the time that a path takes for half the size
+#define CROWNS 3                 // points of an uneven flower about which feathers stand
 
 // A branch as it grows: where its last node is and how it goes on.
 typedef struct Shoot {
@@ -42,6 +52,7 @@ typedef struct Plan {
     float bend;    // radians out of the plane, away from the normal
     float cup;     // radians by which its sides rise out of the plane
     float width;   // of the feather, relative to its length
+    float twist;   // radians by which its plane turns about it
 } Plan;
 
 typedef struct Flower {
@@ -132,6 +143,9 @@ static void bend_on(Shoot *shoot, const Plan *plan, float share)
     Vec3 across = vec3_normalize(vec3_cross(shoot->normal, shoot->heading));
     turn(&shoot->heading, across, plan->bend * share);
     turn(&shoot->normal, across, plan->bend * share);
+    if (plan->twist != 0.0f) {
+        turn(&shoot->normal, shoot->heading, plan->twist * share);
+    }
 }
 
 static bool grow_branch(Flower *flower, Shoot shoot, const Plan *plan, Error *e)
@@ -161,6 +175,54 @@ static bool grow_branch(Flower *flower, Shoot shoot, const Plan *plan, Error *e)
     return true;
 }
 
+// A smooth number, -1..1, of the direction about the foot: another one for each `which`.
+static float wave_about(uint64_t seed, int which, float azimuth)
+{
+    float sum = 0.0f, s, c;
+    for (int k = 1; k <= 2; k++) {
+        uint64_t key = random_key(seed, STREAM_WAVES + (uint64_t)(2 * which + k));
+        exact_sincos((float)k * azimuth + 2.0f * PI_F * random_unit(key), &s, &c);
+        sum += (k == 1 ? 0.6f : 0.4f) * s;
+    }
+    return sum;
+}
+
+// What makes a feather of an uneven flower differ from that of an even one.
+typedef struct Uneven {
+    float azimuth; // radians to add
+    float tilt;    // degrees to add
+    float length;  // factor
+    float sway;    // factor on its bend in the plane
+    float twist;   // radians
+    Vec3 foot;     // m to add
+} Uneven;
+
+// Crystals stand in tufts with gaps between them, those toward the vapour grow long and those in
+// the lee of older ones stay short, and a plate seldom stays flat as it grows.
+static Uneven uneven_of(const FrostFlowerParams *params, int i, float azimuth, uint64_t key,
+                        uint64_t seed)
+{
+    Uneven n = {.length = 1.0f, .sway = 1.0f};
+    float most = params->uneven;
+    if (most <= 0.0f) {
+        return n;
+    }
+    n.azimuth = 0.9f * most * wave_about(seed, 0, azimuth);
+    azimuth += n.azimuth;
+    n.tilt = 26.0f * most * wave_about(seed, 1, azimuth);
+    float stunt = random_unit(random_key(key, STREAM_STUNT));
+    n.length =
+        (1.0f + 0.3f * most * wave_about(seed, 2, azimuth)) * (1.0f - 0.6f * most * stunt * stunt);
+    n.sway = 1.0f + 1.6f * most;
+    n.twist = 0.9f * most * random_normal(random_key(key, STREAM_TWIST));
+    uint64_t crown = random_key(random_key(seed, STREAM_CROWNS), (uint64_t)(i % CROWNS));
+    float s, c;
+    exact_sincos(2.0f * PI_F * random_unit(crown), &s, &c);
+    float away = 0.13f * most * params->size * random_unit(random_key(crown, 1));
+    n.foot = vec3(away * c, 0.0f, away * s);
+    return n;
+}
+
 // The outer feathers lie lower and are longer; `open` tells how soon they do.
 static bool grow_feather(Flower *flower, int i, float open, uint64_t seed, Error *e)
 {
@@ -169,9 +231,11 @@ static bool grow_feather(Flower *flower, int i, float open, uint64_t seed, Error
     float u = ((float)i + 0.5f) / (float)params->feathers;
     float azimuth =
         GOLDEN_ANGLE * (float)i + 0.25f * random_normal(random_key(key, STREAM_AZIMUTH));
+    const Uneven uneven = uneven_of(params, i, azimuth, key, seed);
+    azimuth += uneven.azimuth;
     float tilt =
         params->spread * exact_pow(u, open) + 7.0f * random_normal(random_key(key, STREAM_TILT));
-    tilt = clampf(tilt, 0.0f, 88.0f);
+    tilt = clampf(tilt + uneven.tilt, 0.0f, 88.0f);
     float sa, ca, st, ct;
     exact_sincos(azimuth, &sa, &ca);
     exact_sincos(tilt * RADIANS_PER_DEGREE, &st, &ct);
@@ -183,14 +247,15 @@ static bool grow_feather(Flower *flower, int i, float open, uint64_t seed, Error
         params->bend * (0.4f + 0.6f * u) + 22.0f * random_normal(random_key(key, STREAM_BEND));
     bend = clampf(bend, -60.0f, 95.0f - tilt); // its tip hangs, but not into the ice
     float short_by = random_unit(random_key(key, STREAM_LENGTH)); // few are short
-    Plan plan = {
-        .length =
-            0.5f * params->size * lerpf(0.8f, 1.0f, u) * (1.05f - 0.55f * short_by * short_by),
-        .curl = 0.25f * random_normal(random_key(key, STREAM_SWAY)),
-        .bend = bend * RADIANS_PER_DEGREE,
-        .cup = random_range(random_key(key, STREAM_CUP), -0.1f, 0.35f),
-        .width = params->feather_width * random_range(random_key(key, STREAM_WIDTH), 0.75f, 1.2f)};
-    Vec3 foot = vec3_scale(out, 0.05f * params->size * u);
+    Plan plan = {.length = 0.5f * params->size * lerpf(0.8f, 1.0f, u) *
+                           (1.05f - 0.55f * short_by * short_by) * uneven.length,
+                 .curl = 0.25f * uneven.sway * random_normal(random_key(key, STREAM_SWAY)),
+                 .bend = bend * RADIANS_PER_DEGREE,
+                 .cup = random_range(random_key(key, STREAM_CUP), -0.1f, 0.35f),
+                 .width = params->feather_width *
+                          random_range(random_key(key, STREAM_WIDTH), 0.75f, 1.2f),
+                 .twist = uneven.twist};
+    Vec3 foot = vec3_add(vec3_scale(out, 0.05f * params->size * u), uneven.foot);
     uint64_t id = random_key(random_key(seed, STREAM_ROOTS), (uint64_t)i);
     shoot.node = out_tree_add_node(flower->tree, foot, -1, 0, i, id, e);
     if (shoot.node < 0) {

@@ -15,6 +15,7 @@ typedef struct FrostFlowerParams {
     float size;          // m, its width; feathers are about half as long
     int feathers;        // number
     float spread;        // degrees from upright of the outermost feathers
+    float uneven;        // 0..1: 0 = an even rosette, 1 = tufts with gaps, long to one side
     float bend;          // degrees by which feathers bend outward from foot to tip, mean
     float feather_width; // relative to its length
     int barbs;           // on each side of a feather of half the size

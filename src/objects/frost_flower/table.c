@@ -31,6 +31,10 @@ static const Key FLOWER_KEYS[] = {
     {KEY_OF(FrostFlowerParams, spread, "spread", KEY_FLOAT), .high = 88, .unit = "degrees",
      .doc = "Angle of the outermost feathers from upright where they leave the ice; the innermost "
             "stand upright."},
+    {KEY_OF(FrostFlowerParams, uneven, "uneven", KEY_FLOAT), .high = 1,
+     .doc =
+         "0 = an even rosette; 1 = feathers stand in tufts with gaps between them, are long to one "
+         "side and stunted to another, and twist."},
     {KEY_OF(FrostFlowerParams, bend, "bend", KEY_FLOAT), .low = -60, .high = 100, .unit = "degrees",
      .doc = "Angle by which the outer feathers bend outward to their tips, inward if negative; it "
             "varies from feather to feather."},

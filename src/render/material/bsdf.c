@@ -46,7 +46,7 @@ void bsdf_shade(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *b)
                 .alpha = entry->alpha,
                 .table = entry->table};
     if (m->pattern != PATTERN_NONE || m->variation > 0.0f || point->season != 0.0f) {
-        PatternShade shade = {m->color, m->transmittance, point->normal, 0.0f};
+        PatternShade shade = {m->color, m->transmittance, point->normal, 0.0f, m->roughness};
         pattern_apply(m, point, &shade);
         if (b->traits & TRAIT_PATTERNED) {
             b->color = shade.color;
@@ -54,6 +54,9 @@ void bsdf_shade(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *b)
         }
         b->normal = shade.normal;
         b->foam = shade.foam;
+        if (pattern_varies_roughness(m)) {
+            maps_set_roughness(entry, shade.roughness, b);
+        }
     }
     if (entry->mapped) {
         maps_apply(entry, point, b);

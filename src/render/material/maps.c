@@ -181,7 +181,7 @@ void maps_apply(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *b)
     }
     if (entry->roughness) {
         float factor = mean_of(texture_data, entry->roughness, p, count).x;
-        maps_set_roughness(entry, m->roughness * factor, b);
+        maps_set_roughness(entry, b->roughness * factor, b);
     }
     if (entry->normal) {
         float side = point->backface ? -1.0f : 1.0f;

@@ -73,7 +73,8 @@ typedef enum PatternKind {
     PATTERN_RIVER,      // its water: the bed in shoals, murky depth, ripples
     PATTERN_DELTA,      // mud flats, reeds, marsh, willows on levees, fields of a river's delta
     PATTERN_SILT,       // its water: mud and clear sea (color), the bed in shoals
-    PATTERN_HEATH       // dry turf of open slopes, bushes, stones, worn tracks of soil (color2)
+    PATTERN_HEATH,      // dry turf of open slopes, bushes, stones, worn tracks of soil (color2)
+    PATTERN_ICE         // dark new ice: patches dulled by haze, grains of rime (color2)
 } PatternKind;
 
 // Is relief displaced near the camera?

@@ -4,6 +4,7 @@
 #include "render/material/maps.h"
 #include "render/material/mask.h"
 #include "render/material/material_ops.h"
+#include "render/material/pattern.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -60,7 +61,8 @@ static bool open_textures(MaterialSet *set, MaterialEntry *entry, const Run *run
 // The tables of a surface whose roughness differs from place to place.
 static bool tabulate_roughness(MaterialEntry *entry, bool mixed, Error *e)
 {
-    if (!mixed && (!entry->roughness || !entry->table)) {
+    bool varied = entry->roughness || pattern_varies_roughness(&entry->material);
+    if (!mixed && (!varied || !entry->table)) {
         return true;
     }
     entry->rough_tables = memory_alloc_zero(ROUGH_TABLES, sizeof *entry->rough_tables, e);

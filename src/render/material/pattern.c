@@ -113,6 +113,11 @@ static float noise_height(const Material *m, const SurfacePoint *point)
     return 0.5f * m->pattern_depth * pattern_detail(scale, point->footprint) * n;
 }
 
+bool pattern_varies_roughness(const Material *m)
+{
+    return m->pattern == PATTERN_ICE && m->kind == MATERIAL_PRINCIPLED;
+}
+
 float pattern_height(const Material *m, const SurfacePoint *point)
 {
     switch (m->pattern) {
@@ -189,6 +194,7 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_DELTA] = pattern_delta,
     [PATTERN_SILT] = pattern_silt,
     [PATTERN_HEATH] = pattern_heath,
+    [PATTERN_ICE] = pattern_ice,
 };
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)

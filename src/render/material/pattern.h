@@ -8,13 +8,17 @@
 
 typedef struct PatternShade {
     Vec3 color, transmittance;
-    Vec3 normal; // unit; on the side of the point's normal
-    float foam;  // of water: share of the pixel that is white
+    Vec3 normal;     // unit; on the side of the point's normal
+    float foam;      // of water and ice: share of the pixel that is white, without gloss
+    float roughness; // of the gloss; the material's own unless the pattern changes it
 } PatternShade;
 
 // Applies the material's pattern and its variation between instances to shade, which holds the
 // material's colours and the point's normal.
 void pattern_apply(const Material *material, const SurfacePoint *point, PatternShade *shade);
+
+// Does the pattern change the roughness of the material's gloss?
+bool pattern_varies_roughness(const Material *material);
 
 // Height of the pattern's relief, m along the normal, about its mean; 0 if the pattern cannot be
 // displaced. Its size, m, from about the lowest to the highest.
@@ -66,6 +70,7 @@ void pattern_river(const Material *material, const SurfacePoint *point, PatternS
 void pattern_karst(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_delta(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_heath(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_ice(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_silt(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_karst_height(const Material *material, const SurfacePoint *point); // m
 void pattern_glacial(const Material *material, const SurfacePoint *point, PatternShade *shade);
