@@ -33,8 +33,10 @@ typedef struct LightningParams {
                    // far below a pixel; the power does not depend on it
     float power;   // W/m, radiant, of the main channel; 0 = in proportion to the radius
     float branch_power; // power of a long side branch at the main channel, as a share of that one's
-    float taper;        // a channel's radius is in proportion to its power to this exponent
-    float lift;         // m above the surface; 0 = twice the radius
+    float drain; // length of all channels beyond a channel with which it has that power, as a
+                 // share of the height
+    float taper; // a channel's radius is in proportion to its power to this exponent
+    float lift;  // m above the surface; 0 = twice the radius
 } LightningParams;
 
 // The documented defaults: a bolt of 1,000 m.
