@@ -60,8 +60,9 @@ int64_t lightning_attractors(const LightningParams *params);
 // envelope.
 float lightning_radius(const LightningParams *params, const OutTree *tree);
 
-// Adds the bolts as emissive round curves; the one material should be an emission. The curves' glow
-// is relative to that emission's luminance, so that their radiance follows the power.
+// Adds the bolts as round curves. The one material should be an emission, or one that is lit, as
+// cracks in a block are; then the power sets radii only. The curves' glow is relative to an
+// emission's luminance, so that their radiance follows the power.
 bool lightning_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 // Adds "turning" (mean absolute change of direction along the main channel, degrees, seen from the
