@@ -40,6 +40,8 @@ typedef struct ScatterParams {
     float (*density)(const void *user, Vec3 p);
     const void *density_user;
     float depth_gradient; // volume: density from the centre to the surface, same scale as gradient
+    Vec3 facing; // surface: points only where its normal is within 60 degrees of this direction, of
+                 // any length; 0 = everywhere
     // points and their mean spacing stay fixed in space when the envelope moves or changes
     // slightly: SCATTER_RANDOM, about count points (the spacing is rounded to a quarter octave)
     bool anchored;

@@ -106,6 +106,12 @@ bool scatter_keeps(const Scatter *s, Vec3 p, uint64_t key)
                                weight_at(s, p, outness(s, p));
 }
 
+bool scatter_faces(const Scatter *s, Vec3 normal)
+{
+    Vec3 facing = s->params->facing;
+    return !s->faces || 2.0f * vec3_dot(normal, facing) >= vec3_length(facing);
+}
+
 Draw scatter_draw(const Scatter *s, uint64_t number)
 {
     uint64_t key = random_key(s->params->seed, number);
@@ -125,7 +131,8 @@ Draw scatter_draw(const Scatter *s, uint64_t number)
         draw.position = vec3((float)p[0], (float)p[1], (float)p[2]);
         draw.inside = envelope_contains(s->envelope, draw.position);
     }
-    draw.kept = draw.inside && scatter_keeps(s, draw.position, key);
+    draw.kept =
+        draw.inside && scatter_faces(s, draw.normal) && scatter_keeps(s, draw.position, key);
     draw.position = vec3_madd(s->center, s->params->scale, vec3_sub(draw.position, s->center));
     return draw;
 }
@@ -235,12 +242,13 @@ static bool measure_weights(Scatter *s, Error *e)
     Vec3 *inner = memory_alloc(PILOT_DRAWS, sizeof *inner, e);
     double *out = memory_alloc(PILOT_DRAWS, sizeof *out, e);
     bool made = inner && out;
-    int64_t n = 0;
+    int64_t n = 0, averted = 0; // draws
     for (uint64_t i = 0; made && i < PILOT_TRIES && n < PILOT_DRAWS; i++) {
         Draw draw = scatter_draw(&pilot, i);
-        if (draw.inside) {
+        if (draw.kept) {
             inner[n++] = draw.position;
         }
+        averted += draw.inside && !draw.kept;
     }
     double shell = 0.0, weight = 0.0;
     for (int64_t i = 0; i < n; i++) {
@@ -252,6 +260,7 @@ static bool measure_weights(Scatter *s, Error *e)
         weight += weight_at(s, inner[i], out[i]);
     }
     s->mean_weight = n > 0 ? weight / ((double)n * largest_weight(s)) : 0.0;
+    s->seen = n > 0 ? (double)n / (double)(n + averted) : 0.0;
     free(inner);
     free(out);
     if (made && !(s->mean_weight > 0.0)) {
@@ -264,7 +273,8 @@ static bool scatter_prepare(const Envelope *envelope, const ScatterParams *param
                             Error *e)
 {
     bool volume = params->place == SCATTER_VOLUME;
-    *s = (Scatter){.envelope = envelope, .params = params, .mean_shell = 1.0, .mean_weight = 1.0};
+    *s = (Scatter){
+        .envelope = envelope, .params = params, .mean_shell = 1.0, .mean_weight = 1.0, .seen = 1.0};
     Aabb box = envelope_bounds(envelope);
     s->frame = envelope_frame(envelope);
     s->lowest_corner = box.low;
@@ -275,6 +285,7 @@ static bool scatter_prepare(const Envelope *envelope, const ScatterParams *param
     s->inverse_height = height > 0.0f ? 1.0f / height : 0.0f;
     bool uses_depth = volume && (params->shell > 0.0f || params->depth_gradient != 0.0f);
     s->weighted = uses_depth || params->gradient != 0.0f || params->density;
+    s->faces = !volume && vec3_dot(params->facing, params->facing) > 0.0f;
     if (!volume && !sum_areas(s, e)) {
         return false;
     }
@@ -284,7 +295,7 @@ static bool scatter_prepare(const Envelope *envelope, const ScatterParams *param
             return false;
         }
     }
-    return !s->weighted || measure_weights(s, e);
+    return !(s->weighted || s->faces) || measure_weights(s, e);
 }
 
 static void scatter_release(Scatter *s)
@@ -307,6 +318,7 @@ PointSet *points_scatter(const Envelope *envelope, const ScatterParams *params, 
         points->dimension = volume ? 3 : 2;
         points->measure = volume ? envelope_volume(envelope) * scale * scale * scale
                                  : envelope_area(envelope) * scale * scale;
+        points->measure *= s.seen;
         if (params->density) { // the mean spacing is that where the points are
             points->measure *= s.mean_weight;
         }

@@ -15,9 +15,11 @@ typedef struct Scatter {
     float lowest, inverse_height; // m, 1/m: of the region, for the gradient
     double *cumulative;           // SCATTER_SURFACE: cumulative area of the faces, m^2
     bool weighted;                // the density is not uniform
+    bool faces;                   // only a part of the surface counts: params->facing
     const DepthField *depth;      // the envelope's; NULL if the density does not depend on it
     double mean_shell;            // mean of the shell's density over the region
-    double mean_weight;           // share of the draws inside the region that are kept
+    double seen;                  // share of the surface that faces params->facing
+    double mean_weight;           // share of the draws there, inside the region, that are kept
 } Scatter;
 
 typedef struct Draw {
@@ -51,6 +53,9 @@ bool scatter_anchored(const Scatter *scatter, PointSet *points, const Run *run, 
 
 // Whether the density accepts the draw with this key at p, a point of the unscaled region.
 bool scatter_keeps(const Scatter *scatter, Vec3 p, uint64_t key);
+
+// Whether a surface with this normal, of length 1, faces params->facing.
+bool scatter_faces(const Scatter *scatter, Vec3 normal);
 
 // Sets the error for a region in which this many draws found no point.
 bool scatter_empty_error(const Scatter *scatter, int64_t draws, Error *e);

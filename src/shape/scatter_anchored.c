@@ -166,7 +166,7 @@ static Draw lattice_draw(const Lattice *lattice, int64_t n)
         vec3_madd(s->center, (float)lattice->inverse_scale, vec3_sub(draw.position, s->center));
     draw.inside = lattice->slab > 0.0f ? settle_on_surface(lattice, inner, s->params->scale, &draw)
                                        : envelope_contains(s->envelope, inner);
-    draw.kept = draw.inside && scatter_keeps(s, inner, key);
+    draw.kept = draw.inside && scatter_faces(s, draw.normal) && scatter_keeps(s, inner, key);
     return draw;
 }
 

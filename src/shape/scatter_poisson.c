@@ -165,14 +165,14 @@ static bool throw_round(const Scatter *s, DartGrid *g, uint64_t first, int64_t s
     return true;
 }
 
-// Share of the draws that lie in the region.
+// Share of the draws that lie in the region, and on the side of its surface that is wanted.
 static double inside_share(const Scatter *s)
 {
     const float(*m)[4] = s->frame.m;
     Vec3 x = vec3(m[0][0], m[1][0], m[2][0]), y = vec3(m[0][1], m[1][1], m[2][1]);
     Vec3 z = vec3(m[0][2], m[1][2], m[2][2]);
     double box = (double)fabsf(vec3_dot(x, vec3_cross(y, z)));
-    return s->params->place == SCATTER_SURFACE ? 1.0 : envelope_volume(s->envelope) / box;
+    return s->params->place == SCATTER_SURFACE ? s->seen : envelope_volume(s->envelope) / box;
 }
 
 bool scatter_poisson(const Scatter *s, PointSet *points, const Run *run, Error *e)

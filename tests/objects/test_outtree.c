@@ -173,6 +173,7 @@ static void crystals_do_not_cross(void **state)
 
 typedef struct Shown {
     int64_t parts, balls, curves; // balls: instances of all parts
+    float least, largest;         // m, radii of balls
 } Shown;
 
 static Shown show(const char *keys)
@@ -184,10 +185,15 @@ static Shown show(const char *keys)
     if (!world) {
         fail_msg("%s: %s", keys, e.message);
     }
-    Shown shown = {.parts = world->geometry.count};
+    Shown shown = {.parts = world->geometry.count, .least = INFINITY};
     for (int64_t i = 0; i < world->geometry.count; i++) {
         const Part *part = &world->geometry.part[i];
         shown.balls += part->instance_count;
+        for (int64_t k = 0; k < part->instance_count; k++) {
+            float radius = part->instance[k].m[0][0];
+            shown.least = radius < shown.least ? radius : shown.least;
+            shown.largest = radius > shown.largest ? radius : shown.largest;
+        }
         shown.curves += part->curves ? part->curves->curve_count : 0;
     }
     world_free(world);
@@ -274,6 +280,13 @@ static void tips_bear_lamps(void **state)
     assert_int_equal(show("growth: {levels: [{attractors: 100}]}, lamps: {max_count: 1000}").balls,
                      tips);
     assert_int_equal(show("growth: {levels: [{attractors: 100}]}, lamps: {max_count: 7}").balls, 7);
+    Shown even = show("growth: {levels: [{attractors: 100}]}, lamps: {max_count: 99, radius: 0.1}");
+    assert_true(even.least == 0.1f && even.largest == 0.1f);
+    Shown uneven = show("growth: {levels: [{attractors: 100}]}, lamps: {max_count: 99, radius: "
+                        "0.1, variation: 0.8}");
+    assert_int_equal(uneven.balls, even.balls);
+    assert_true(uneven.least >= 0.02f && uneven.least < 0.04f);
+    assert_true(uneven.largest <= 0.1f && uneven.largest > 0.08f);
     out_tree_free(tree);
 }
 

@@ -252,6 +252,36 @@ static void densities_follow_gradients(void **state)
     envelope_free(box);
 }
 
+// A box of 2 x 2 x 0.2 faces +z with 4 m^2 of its 9.6.
+static void points_lie_where_the_surface_faces(void **state)
+{
+    (void)state;
+    Envelope *box = make_shape(SHAPE_BOX, vec3(1, 1, 0.1f), transform_identity());
+    ScatterParams params = scatter_params_default();
+    params.place = SCATTER_SURFACE;
+    params.facing = vec3(0, 0.5f, 3);
+    for (int way = 0; way < 3; way++) { // random, evenly spaced, anchored
+        params.pattern = way == 1 ? SCATTER_POISSON : SCATTER_RANDOM;
+        params.anchored = way == 2;
+        PointSet *points = scatter(box, &params, 1 + way);
+        assert_true(points->count > 850 && points->count < 1150);
+        for (int64_t i = 0; i < points->count; i++) {
+            assert_float_equal(points->position[i].z, 0.1f, way == 2 ? 0.01f : 1e-5f);
+            assert_true(points->normal[i].z > 0.5f);
+        }
+        if (way < 2) { // that of anchored points follows from their lattice
+            assert_true(fabs(points->measure - 4.0) < 0.08);
+        }
+        points_free(points);
+    }
+    params = scatter_params_default(); // a volume has no sides
+    params.facing = vec3(0, 0, 1);
+    PointSet *inside = scatter(box, &params, 1);
+    assert_true(fabs(inside->measure - 0.8) < 1e-4);
+    points_free(inside);
+    envelope_free(box);
+}
+
 // The depth of a level set is solved for: the same ball, made of two, must act like a ball.
 static void depth_is_known_beyond_the_band(void **state)
 {
@@ -368,6 +398,7 @@ int main(void)
         cmocka_unit_test(refuses_absurd_params),
         cmocka_unit_test(adds_by_hand),
         cmocka_unit_test(can_be_cancelled),
+        cmocka_unit_test(points_lie_where_the_surface_faces),
         cmocka_unit_test(depth_is_known_beyond_the_band),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

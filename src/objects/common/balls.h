@@ -10,4 +10,8 @@ enum { BALL_FACES = 224 }; // of each
 bool balls_add(const Vec3 *position, int64_t count, float radius, const Placing *placing, int role,
                Error *e);
 
+// The same with a radius (m) for each.
+bool balls_add_each(const Vec3 *position, const float *radius, int64_t count,
+                    const Placing *placing, int role, Error *e);
+
 #endif

@@ -140,6 +140,9 @@ static const Key POINTS_KEYS[] = {
     {KEY_OF(ElementParams, points.depth_gradient, "depth_gradient", KEY_FLOAT), .low = -1,
      .high = 1,
      .doc = "Density by depth: -1 = only in the middle, 0 = uniform, 1 = only near the surface."},
+    {KEY_OF(ElementParams, points.facing, "facing", KEY_VECTOR), .count = 3,
+     .doc = "On a surface: attractors lie only where it faces this direction, give or take 60 "
+            "degrees: on one side of a sheet; [0, 0, 0] = everywhere."},
     {KEY_OF(ElementParams, points.anchored, "anchored", KEY_BOOL),
      .doc = "Keep attractors in place when the envelope moves or changes, so that growth elsewhere "
             "hardly changes; for animation and editing. Counts are then approximate."},

@@ -180,6 +180,7 @@ bool own_space_take_element(OwnSpace *own, ElementParams *element, Error *e)
     }
     element->growth.cone_axis = own_space_direction(own, element->growth.cone_axis);
     element->growth.tropism = own_space_direction(own, element->growth.tropism);
+    element->points.facing = own_space_direction(own, element->points.facing);
     return own_space_take_shapes(own, &element->shapes, element->shape_count, e) &&
            (element->field_count == 0 ||
             take_fields(own, &element->fields, element->field_count, e));

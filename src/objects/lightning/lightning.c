@@ -23,6 +23,7 @@ LightningParams lightning_params_default(void)
                               .hurst = 0.65f,
                               .jitter = 0.1f,
                               .branch_power = 0.2f,
+                              .drain = 0.25f,
                               .taper = 0.33f};
     params.element.points.pattern = SCATTER_POISSON;
     params.element.growth.max_children = 2;
@@ -103,12 +104,11 @@ static float *lengths_beyond(const OutTree *tree, Error *e)
 static void chain_powers(OutTree *tree, const LightningParams *params, float size, bool main,
                          bool from_root, const float *beyond, const int32_t *node, int64_t count)
 {
-    enum { LONG = 4 }; // with 1 / LONG of the size beyond it, a channel has full power
     static const float least = 0.02f; // share left at the tip
     bool fades = params->element.points.place == SCATTER_SURFACE || !(main || from_root);
-    float share = main ? 1.0f : params->branch_power;
+    float share = main ? 1.0f : params->branch_power, full = params->drain * size;
     for (int64_t k = from_root ? 0 : 1; k < count; k++) {
-        float drained = clampf(LONG * beyond[node[k]] / size, least, 1.0f);
+        float drained = clampf(beyond[node[k]] / full, least, 1.0f);
         tree->radius[node[k]] = fades ? share * drained : share;
     }
 }

@@ -33,8 +33,10 @@ typedef struct LightningParams {
                    // far below a pixel; the power does not depend on it
     float power;   // W/m, radiant, of the main channel; 0 = in proportion to the radius
     float branch_power; // power of a long side branch at the main channel, as a share of that one's
-    float taper;        // a channel's radius is in proportion to its power to this exponent
-    float lift;         // m above the surface; 0 = twice the radius
+    float drain; // length of all channels beyond a channel with which it has that power, as a
+                 // share of the height
+    float taper; // a channel's radius is in proportion to its power to this exponent
+    float lift;  // m above the surface; 0 = twice the radius
 } LightningParams;
 
 // The documented defaults: a bolt of 1,000 m.
@@ -58,8 +60,9 @@ int64_t lightning_attractors(const LightningParams *params);
 // envelope.
 float lightning_radius(const LightningParams *params, const OutTree *tree);
 
-// Adds the bolts as emissive round curves; the one material should be an emission. The curves' glow
-// is relative to that emission's luminance, so that their radiance follows the power.
+// Adds the bolts as round curves. The one material should be an emission, or one that is lit, as
+// cracks in a block are; then the power sets radii only. The curves' glow is relative to an
+// emission's luminance, so that their radiance follows the power.
 bool lightning_geometry(const void *params, const Grown *grown, const Placing *placing, Error *e);
 
 // Adds "turning" (mean absolute change of direction along the main channel, degrees, seen from the

@@ -49,8 +49,11 @@ static const Key LIGHTNING_KEYS[] = {
             "bolts of any size look equally bright. The material sets the colour."},
     {KEY_OF(LightningParams, branch_power, "branch_power", KEY_FLOAT), .high = 1,
      .doc = "Power of a side branch where it leaves the main channel, as a fraction of the main "
-            "channel's power, if all channels beyond are at least 1/4 of the height long; less in "
-            "proportion where they are shorter, so branches dim at forks and toward tips."},
+            "channel's power, if all channels beyond are at least `drain` long; less in proportion "
+            "where they are shorter, so branches dim at forks and toward tips."},
+    {KEY_OF(LightningParams, drain, "drain", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1e6,
+     .doc = "Length of all channels beyond a branch, in heights, that gives it this power. In a "
+            "dense discharge more, so that its twigs stand back behind its limbs."},
     {KEY_OF(LightningParams, taper, "taper", KEY_FLOAT), .low = 0.01, .high = 1,
      .doc =
          "A channel's radius is in proportion to its power to this exponent, its radiance to the "

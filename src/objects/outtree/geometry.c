@@ -51,17 +51,24 @@ static bool add_lamps(const LampsParams *lamps, const OutTree *tree, const Placi
         return false;
     }
     Vec3 *place = memory_alloc(tree->count, sizeof *place, e);
+    float *radius = place ? memory_alloc(tree->count, sizeof *radius, e) : NULL;
+    uint64_t seed = random_key(placing->recipe->seed, STREAM_OUTTREE_LAMPS);
     int64_t tips = 0;
-    for (int64_t i = 0; place && i < tree->count; i++) {
+    for (int64_t i = 0; radius && i < tree->count; i++) {
         if (branching.children[i] == 0) {
+            float smaller = lamps->variation * random_unit(random_key(seed, tree->id[i]));
+            radius[tips] = lamps->radius * (1.0f - smaller);
             place[tips++] = vec3_madd(tree->position[i], lamps->drop, vec3(0, -1, 0));
         }
     }
     int64_t count = tips < lamps->max_count ? tips : lamps->max_count;
-    for (int64_t i = 0; place && i < count; i++) {
-        place[i] = place[(int64_t)((double)i * (double)tips / (double)count)];
+    for (int64_t i = 0; radius && i < count; i++) {
+        int64_t from = (int64_t)((double)i * (double)tips / (double)count);
+        place[i] = place[from];
+        radius[i] = radius[from];
     }
-    bool done = place && balls_add(place, count, lamps->radius, placing, OUTTREE_LAMP, e);
+    bool done = radius && balls_add_each(place, radius, count, placing, OUTTREE_LAMP, e);
+    free(radius);
     free(place);
     branching_free(&branching);
     return done;

@@ -71,6 +71,7 @@ typedef struct LampsParams {
     int64_t max_count; // 0 = none
     float radius;      // m
     float drop;        // m: how far they hang below their tips
+    float variation;   // share by which the smallest are smaller than radius
 } LampsParams;
 
 // Nodes that circles are drawn around.
@@ -139,6 +140,7 @@ enum {
     STREAM_OUTTREE_GROWTH = 5,
     STREAM_OUTTREE_JITTER = 6,
     STREAM_OUTTREE_LEAVES = 7,
+    STREAM_OUTTREE_LAMPS = 8, // the size of each, by its tip
     STREAM_OUTTREE_FURTHER = 100
 };
 

@@ -177,6 +177,8 @@ static const Key LAMPS_KEYS[] = {
      .unit = "m", .doc = "Radius of a lamp."},
     {KEY_OF(LampsParams, drop, "drop", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Distance by which lamps hang below their tips."},
+    {KEY_OF(LampsParams, variation, "variation", KEY_FLOAT), .high = 1,
+     .doc = "Variation of their sizes: radii lie evenly between 1 - variation and 1 times radius."},
     {0},
 };
 
