@@ -208,7 +208,7 @@ static bool shape_basin(Digging *d, int32_t sill, float mean, Basin *basin, Erro
 // straight sides would stand as walls.
 static void dig(const Digging *d, const Basin *basin, HeightField *field)
 {
-    const float bank = 0.5f; // slope
+    const float bank = 0.62f; // slope
     const HeightField *shore = basin->shore;
     float coarse = shore->cell.x, wavelength = 5.0f * coarse;
     uint64_t key = random_key(d->terrain->seed, STREAM_BASINS);
