@@ -163,6 +163,47 @@ static void basins_have_the_size_and_depth_of_mountain_lakes(void **state)
     grown_clear(&kept);
 }
 
+// The longest row of samples of the second land, along the grid, that lie this far (m) below the
+// first, beside a row of samples that are the same in both: a straight wall.
+static int longest_straight_wall(const HeightField *whole, const HeightField *dug, float height)
+{
+    int longest = 0, columns = dug->columns;
+    for (int way = 0; way < 4; way++) { // a wall beyond the next sample east, south, west or north
+        int64_t beside = (way < 2 ? 1 : -1) * (way % 2 ? columns : 1);
+        int64_t along = way % 2 ? 1 : columns, across = way % 2 ? columns : 1;
+        for (int line = 1; line < columns - 1; line++) {
+            int run = 0;
+            for (int k = 1; k < columns - 1; k++) {
+                int64_t i = line * across + k * along, n = i + beside;
+                bool step = whole->height[i] - dug->height[i] > height &&
+                            fabsf(whole->height[n] - dug->height[n]) < 0.5f;
+                run = step ? run + 1 : 0;
+                longest = run > longest ? run : longest;
+            }
+        }
+    }
+    return longest;
+}
+
+// Basins lie in the land by banks of their own form, not by the sides of the box that is dug.
+static void basins_have_no_straight_walls(void **state)
+{
+    (void)state;
+    HeightField *field[2];
+    for (int k = 0; k < 2; k++) {
+        TerrainParams params = land_of_rivers(512, 300, 0.0f, 3 * k);
+        params.relief = 900.0f;
+        Grown kept = {0};
+        field[k] = make_heights(&params, SEED, 1, NULL, &kept);
+        grown_clear(&kept);
+    }
+    int wall = longest_straight_wall(field[0], field[1], 4.0f);
+    print_message("longest straight wall: %d samples\n", wall);
+    assert_true(wall < 10); // 43 without an end of the banks
+    height_field_free(field[0]);
+    height_field_free(field[1]);
+}
+
 // A river that enters a lake leaves it at the lake's level, and falls everywhere else.
 static void rivers_run_through_lakes(void **state)
 {
@@ -230,6 +271,7 @@ int main(void)
         cmocka_unit_test(shores_are_beaches),
         cmocka_unit_test(the_same_bits_for_any_number_of_threads),
         cmocka_unit_test(basins_have_the_size_and_depth_of_mountain_lakes),
+        cmocka_unit_test(basins_have_no_straight_walls),
         cmocka_unit_test(rivers_run_through_lakes),
         cmocka_unit_test(silt_takes_the_lakes_volume),
         cmocka_unit_test(no_lakes_change_nothing),

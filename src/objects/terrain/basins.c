@@ -16,6 +16,7 @@
 #include <string.h>
 
 enum { COARSE_CELLS = 256, LEAST_CELLS = 7, RIM = 5 };
+enum { MARGIN = 3 }; // coarse cells about a basin that are dug as its banks, less than RIM
 
 typedef struct Digging {
     const Terrain *terrain;
@@ -165,7 +166,6 @@ static void measure_distances(const Digging *d, HeightField *shore, int64_t corn
 // The basin of the region at hand. mean: m, its mean depth.
 static bool shape_basin(Digging *d, int32_t sill, float mean, Basin *basin, Error *e)
 {
-    enum { MARGIN = 3 }; // cells, less than RIM
     int64_t columns = d->coarse->columns;
     int64_t least[2] = {columns, columns}, most[2] = {0, 0};
     d->trial++;
@@ -204,10 +204,11 @@ static bool shape_basin(Digging *d, int32_t sill, float mean, Basin *basin, Erro
 }
 
 // Digs it into the land: a bowl below the level, and banks above it that stand no steeper than
-// rubble.
+// rubble. Where the land behind them is higher, they end in it well before the part does, whose
+// straight sides would stand as walls.
 static void dig(const Digging *d, const Basin *basin, HeightField *field)
 {
-    const float bank = 0.5f; // slope
+    const float bank = 0.62f; // slope
     const HeightField *shore = basin->shore;
     float coarse = shore->cell.x, wavelength = 5.0f * coarse;
     uint64_t key = random_key(d->terrain->seed, STREAM_BASINS);
@@ -226,7 +227,9 @@ static void dig(const Digging *d, const Basin *basin, HeightField *field)
         float most = s > 0.0f ? basin->level - basin->deepest * bowl(share) *
                                                    (1.0f + 0.25f * clampf(uneven, -1.0f, 1.0f))
                               : basin->level - bank * s;
-        field->height[i] = fminf(field->height[i], most);
+        float cut = fminf(field->height[i], most);
+        field->height[i] =
+            lerpf(cut, field->height[i], smoothstepf(0.8f * coarse, 2.3f * coarse, -s));
     }
 }
 
