@@ -8,7 +8,14 @@
 
 #include <math.h>
 
-enum { SEED_BROAD = 801, SEED_PATCH = 811, SEED_MUD = 821, SEED_SWARD = 831, SEED_WATER = 851, SEED_EDDY = 881 };
+enum {
+    SEED_BROAD = 801,
+    SEED_PATCH = 811,
+    SEED_MUD = 821,
+    SEED_SWARD = 831,
+    SEED_WATER = 851,
+    SEED_EDDY = 881
+};
 
 // ---- land
 
