@@ -1,6 +1,6 @@
 """Turns jar.obj, a preserving jar with outer and inner wall and a beaded neck, and flame.obj, a candle's flame, and
-paints jar-frost.png, where frost lies on the jar seen from the side (white: thick, black: thawed by the flame), for
-scenes/outtree-frost.yaml. Metres, Y up. Run in this folder."""
+paints jar-frost.png, where frost lies on the jar (white: thick, black: thawed by the flame, and the far side), seen
+steeply from above, for scenes/outtree-frost.yaml. Metres, Y up. Run in this folder."""
 
 import math
 import random
@@ -71,7 +71,9 @@ def write_obj(path, note, mesh):
             file.write("f " + " ".join(str(i + 1) for i in f) + "\n")
 
 
-WIDE, HIGH = 64, 96  # of 0.1 m and 0.15 m
+WIDE, HIGH = 64, 192  # of 0.1 m and 0.132 m
+UP, BACK = math.sqrt(0.1), -math.sqrt(0.9)  # the picture's upward axis in y and z: so oblique that front and back fall apart
+BOTTOM = -0.044  # of the picture, along this axis
 LATTICE = [[random.random() for _ in range(40)] for _ in range(40)]
 
 
@@ -92,11 +94,28 @@ def frost(x, y):
     return value * (0.55 + 0.45 * min(max((0.038 - y) / 0.02, 0.0), 1.0))
 
 
+def wall(y):
+    """The jar's radius at height y, about."""
+    return 0.045 if y < 0.1 else max(0.029 + math.sqrt(max(0.016 ** 2 - (y - 0.1) ** 2, 0.0)), 0.0335)
+
+
+def seen(x, v):
+    """Density at a point of the picture: that of the near wall behind it."""
+    nearest, density = 0.003, 0.0
+    for k in range(140):
+        y = 0.001 * k
+        if abs(x) <= wall(y):
+            off = abs(y * UP + math.sqrt(wall(y) ** 2 - x * x) * BACK - v)
+            if off < nearest:
+                nearest, density = off, frost(x, y)
+    return density
+
+
 def write_png(path):
     rows = b""
     for j in range(HIGH):
-        y = 0.15 * (1 - (j + 0.5) / HIGH)
-        rows += b"\0" + bytes(int(255 * frost(0.1 * ((i + 0.5) / WIDE - 0.5), y)) for i in range(WIDE))
+        v = BOTTOM + 0.132 * (1 - (j + 0.5) / HIGH)
+        rows += b"\0" + bytes(int(255 * seen(0.1 * ((i + 0.5) / WIDE - 0.5), v)) for i in range(WIDE))
     chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     with open(path, "wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", WIDE, HIGH, 8, 0, 0, 0, 0))
