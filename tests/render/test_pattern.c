@@ -699,42 +699,6 @@ static void test_runnels_follow_the_fall(void **state)
     }
 }
 
-// Eddies draw a plume's mud out into streaks: within 60 m the tone changes along one way mostly.
-// Without eddies the coherence is 0.28, with them 0.55.
-static void test_plumes_are_streaky(void **state)
-{
-    (void)state;
-    Material m = material_default(MATERIAL_PRINCIPLED);
-    m.pattern = PATTERN_SILT;
-    m.color = vec3_splat(0.04f);
-    m.color2 = vec3_splat(0.8f);
-    enum { PLACES = 400, SIDE = 6 };
-    double coherence = 0.0;
-    for (uint64_t i = 0; i < PLACES; i++) {
-        Vec3 p = random_point(i, 20000.0f);
-        double xx = 0.0, xz = 0.0, zz = 0.0;
-        for (int k = 0; k < SIDE * SIDE; k++) {
-            float tone[3];
-            for (int d = 0; d < 3; d++) {
-                Vec3 at = vec3(p.x + 10.0f * (float)(k % SIDE) + (d == 1 ? 6.0f : 0.0f), 0.0f,
-                               p.z + 10.0f * (float)(k / SIDE) + (d == 2 ? 6.0f : 0.0f));
-                SurfacePoint point = on_stone(at, 3.0f);
-                point.site = (Vec2){0.9f, 0.4f}; // 9 m deep, 0.4 of the mud in the river
-                PatternShade shade = {.color = m.color, .normal = vec3(0, 1, 0)};
-                pattern_apply(&m, &point, &shade);
-                tone[d] = shade.color.y;
-            }
-            double x = (double)(tone[1] - tone[0]), z = (double)(tone[2] - tone[0]);
-            xx += x * x;
-            xz += x * z;
-            zz += z * z;
-        }
-        coherence += hypot(xx - zz, 2.0 * xz) / fmax(xx + zz, 1e-12) / PLACES;
-    }
-    printf("    coherence %.3f\n", coherence);
-    assert_true(coherence > 0.45);
-}
-
 // A mat of moss has a relief of its own, also where the stone has none and is not displaced.
 static void test_moss_is_no_paint(void **state)
 {
@@ -958,7 +922,6 @@ int main(void)
         cmocka_unit_test(test_stone_moss),
         cmocka_unit_test(test_karst_is_fluted),
         cmocka_unit_test(test_runnels_follow_the_fall),
-        cmocka_unit_test(test_plumes_are_streaky),
         cmocka_unit_test(test_moss_is_no_paint),
         cmocka_unit_test(test_masonry),
         cmocka_unit_test(test_dressed_stone),

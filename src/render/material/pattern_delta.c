@@ -8,14 +8,7 @@
 
 #include <math.h>
 
-enum {
-    SEED_BROAD = 801,
-    SEED_PATCH = 811,
-    SEED_MUD = 821,
-    SEED_SWARD = 831,
-    SEED_WATER = 851,
-    SEED_EDDY = 881
-};
+enum { SEED_BROAD = 801, SEED_PATCH = 811, SEED_MUD = 821, SEED_SWARD = 831, SEED_WATER = 851 };
 
 // ---- land
 
@@ -102,28 +95,12 @@ static Vec3 body_color(Vec3 sea, Vec3 silt, float load)
     return vec3_lerp(vec3_lerp(sea, green, first), silt, then);
 }
 
-// Where the water at a point was before eddies of several sizes wound it up, as far as mixing lets
-// that be seen: noise there is drawn out into the streaks and whorls of a plume.
-static SurfacePoint unwound(const SurfacePoint *point)
-{
-    static const float size[] = {1100.0f, 460.0f, 190.0f}; // m, of eddies
-    SurfacePoint from = *point;
-    for (uint32_t k = 0; k < 3; k++) {
-        Vec3 gradient, p = from.object_position;
-        noise_solid(vec3(p.x / size[k], 0.0f, p.z / size[k]), SEED_EDDY + k, &gradient);
-        from.object_position.x += 0.24f * size[k] * gradient.z;
-        from.object_position.z -= 0.24f * size[k] * gradient.x;
-    }
-    return from;
-}
-
 // The more mud, the less of the bed shows. site.x = depth / (1 m + depth), site.y = the mud, of
 // that in the river.
 void pattern_silt(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     float depth = point->site.x / fmaxf(1.0f - point->site.x, 0.02f), load = point->site.y;
-    SurfacePoint from = unwound(point);
-    PatternOctaves drift = pattern_octaves(&from, 260.0f, 7, 0.6f, 1.0f, SEED_WATER);
+    PatternOctaves drift = pattern_octaves(point, 260.0f, 7, 0.6f, 1.0f, SEED_WATER);
     PatternOctaves fine = pattern_octaves(point, 70.0f, 4, 0.6f, 1.0f, SEED_WATER + 9);
     load =
         load * (1.0f + 0.28f * drift.value) + 0.05f * drift.value * smoothstepf(0.0f, 0.1f, load);
