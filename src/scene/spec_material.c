@@ -201,9 +201,8 @@ static const Key MATERIAL_KEYS[] = {
          "(color) to the river's mud (color2), with the bed in shoals; heath: open slopes of "
          "mountains: dry and lush grass (color), bushes, stones, and worn tracks of soil (color2) "
          "down steep ground, in patches of pattern_scale; ice: new ice, best of kind principled, "
-         "dark "
-         "and glossy (color), dull with haze in patches of pattern_scale and dusted with grains of "
-         "rime (color2); none: one colour."},
+         "dark and glossy (color), dull with haze in patches of pattern_scale and dusted with "
+         "grains of rime (color2); none: one colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
             "and ash, on thick branches; with a pattern_scale below 0.02, as of a miniature tree, "
