@@ -51,7 +51,8 @@ int terrain_badland_cells(const TerrainParams *params)
     return last_cells(&p);
 }
 
-// Land that rises faster is land whose streams cut less: in balance the slopes of both are the same.
+// Land that rises faster is land whose streams cut less: in balance the slopes of both are the
+// same.
 static void raise_strokes(const Badlands *b, Landscape *land)
 {
     const UpliftParams *uplift = &b->params.uplift;

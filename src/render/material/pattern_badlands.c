@@ -30,7 +30,7 @@ enum {
 
 // ---- runnels
 
-enum { WAYS = 8 }; // in half a turn
+enum { WAYS = 16 }; // in half a turn
 
 // Waves of noise across a way in plan, drawn out along it, folded so that they crease where the
 // noise is 0: furrows with round ribs between. width: m, of the widest.
@@ -66,19 +66,18 @@ static PatternOctaves runnels(const SurfacePoint *point, Vec3 normal, float widt
     if (shown <= 0.0f) {
         return sum;
     }
-    static const float way[WAYS][2] = {{1.0f, 0.0f},
-                                       {0.92387953f, 0.38268343f},
-                                       {0.70710678f, 0.70710678f},
-                                       {0.38268343f, 0.92387953f},
-                                       {0.0f, 1.0f},
-                                       {-0.38268343f, 0.92387953f},
-                                       {-0.70710678f, 0.70710678f},
-                                       {-0.92387953f, 0.38268343f}};
+    static const float way[WAYS][2] = {
+        {1.00000000f, 0.00000000f},  {0.98078528f, 0.19509032f},  {0.92387953f, 0.38268343f},
+        {0.83146961f, 0.55557023f},  {0.70710678f, 0.70710678f},  {0.55557023f, 0.83146961f},
+        {0.38268343f, 0.92387953f},  {0.19509032f, 0.98078528f},  {0.00000000f, 1.00000000f},
+        {-0.19509032f, 0.98078528f}, {-0.38268343f, 0.92387953f}, {-0.55557023f, 0.83146961f},
+        {-0.70710678f, 0.70710678f}, {-0.83146961f, 0.55557023f}, {-0.92387953f, 0.38268343f},
+        {-0.98078528f, 0.19509032f}};
     float by = 1.0f / sqrtf(level), squares = 0.0f;
     for (uint32_t k = 0; k < WAYS; k++) {
         // Of the two ways on both sides of the fall, and no others.
         float along = fabsf(normal.x * way[k][0] + normal.z * way[k][1]) * by;
-        float weight = fmaxf(0.0f, (along - 0.92387953f) * (1.0f / 0.07612047f));
+        float weight = fmaxf(0.0f, (along - 0.98078528f) * (1.0f / 0.01921472f));
         if (weight > 0.0f) {
             Vec3 across = vec3(-way[k][1], 0.0f, way[k][0]);
             PatternOctaves one =
@@ -113,11 +112,12 @@ static Vec3 beds_between(const Strata *strata, float low, float high)
     return sum;
 }
 
-// Laminae of three thicknesses, about 0..1; 0.5 where the pixel shows none.
+// Laminae of three thicknesses, all finer than the bed's mean ones, about 0..1; 0.5 where the pixel
+// shows none.
 static float laminae(const Strata *strata, float level, float footprint)
 {
     int bed = strata_bed(strata, level);
-    float lamina = strata->bed[bed].lamina;
+    float lamina = 0.14f * strata->bed[bed].lamina;
     if (lamina <= 0.0f) {
         return 0.5f;
     }
@@ -160,15 +160,15 @@ static Vec3 own_bed(const Material *m, const SurfacePoint *point, Vec3 base, flo
 // ---- the relief of walls
 
 typedef struct Wall {
-    float scale, tall;   // of lengths, and of heights
-    float level;         // m: in the beds, where contacts are ragged
-    float hardness;      // of its bed
-    float veil, rough;   // noise about 0: of tens of metres; of a metre and less
-    float run;           // -1 in runnels, 1 on ribs
-    float tone;          // of the lamina, 0..1
-    float shade;         // 0..1: in cracks and under ledges
-    float chips, chip;   // share covered by chips of the ledges above; tone of one
-    float height;        // m: of all of it
+    float scale, tall; // of lengths, and of heights
+    float level;       // m: in the beds, where contacts are ragged
+    float hardness;    // of its bed
+    float veil, rough; // noise about 0: of tens of metres; of a metre and less
+    float run;         // -1 in runnels, 1 on ribs
+    float tone;        // of the lamina, 0..1
+    float shade;       // 0..1: in cracks and under ledges
+    float chips, chip; // share covered by chips of the ledges above; tone of one
+    float height;      // m: of all of it
 } Wall;
 
 // Is the ledge of a bed whole here? Blocks have fallen out of it, and others stand out less.
@@ -260,7 +260,7 @@ static Wall wall_at(const Material *m, const SurfacePoint *point)
     w.veil = pattern_octaves(point, 22.0f * s, 5, 0.6f, 0.6f, SEED_VEIL).value;
     w.rough = pattern_octaves(point, 1.7f * s, 8, 0.56f, 1.2f, SEED_FRAY).value;
     w.run = runnels(point, normal, 1.3f * s).value;
-    w.height = w.tall * s * (0.2f * w.run + 0.06f * w.rough);
+    w.height = w.tall * s * (0.22f * w.run + 0.045f * w.rough);
     if (strata) {
         float base = strata_base(strata, p.x, p.z);
         w.level = p.y - base + s * (0.4f * w.veil + 0.05f * w.rough);
@@ -290,7 +290,8 @@ static Vec3 washed_beds(const SurfacePoint *point, const Wall *w, float gully)
     float above = w->level + w->scale * (0.1f + 2.2f * tongue);
     Vec3 mud = beds_between(strata, above - half, above + half + 0.4f * w->scale * tongue);
     float firm = smoothstepf(0.35f, 0.55f, w->hardness);
-    float share = clampf(0.12f + 0.6f * tongue + 0.1f * w->rough, 0.0f, 0.8f) * (1.0f - 0.7f * firm);
+    float share =
+        clampf(0.12f + 0.6f * tongue + 0.1f * w->rough, 0.0f, 0.8f) * (1.0f - 0.7f * firm);
     return vec3_lerp(own, mud, share);
 }
 
