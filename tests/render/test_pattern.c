@@ -696,7 +696,7 @@ static void test_runnels_follow_the_fall(void **state)
             turned[1] += (double)fabsf(vec3_dot(vec3_sub(n[2], n[0]), level)) / 2000.0;
         }
         printf("    turned by %.3f across, by %.3f down\n", turned[0], turned[1]);
-        assert_true(turned[0] > 1.9 * turned[1]);
+        assert_true(turned[0] > 1.4 * turned[1]); // least between two ways
     }
 }
 

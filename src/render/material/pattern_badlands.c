@@ -30,17 +30,17 @@ enum {
 
 // ---- runnels
 
-enum { WAYS = 16 }; // in half a turn
+enum { WAYS = 8 }; // in half a turn
 
 // Waves of noise across a way in plan, drawn out along it, folded so that they crease where the
 // noise is 0: furrows with round ribs between. width: m, of the widest.
 static PatternOctaves furrows_along(Vec3 p, Vec3 across, float width, uint32_t seed)
 {
-    const float length = 11.0f; // of a runnel, in its widths, down the slope
+    const float length = 9.0f; // of a runnel, in its widths, down the slope
     PatternOctaves sum = {0};
     float height = 1.0f, norm = 0.0f;
     Vec3 along = vec3(-across.z, 0.0f, across.x);
-    for (uint32_t k = 0; k < 5; k++, width *= 0.47f, height *= 0.55f) {
+    for (uint32_t k = 0; k < 5; k++, width *= 0.47f, height *= 0.6f) {
         float by = 1.0f / width, down = by / length;
         Vec3 gradient,
             q = vec3(vec3_dot(p, across) * by, 1.4f * p.y * down, vec3_dot(p, along) * down);
@@ -66,18 +66,15 @@ static PatternOctaves runnels(const SurfacePoint *point, Vec3 normal, float widt
     if (shown <= 0.0f) {
         return sum;
     }
-    static const float way[WAYS][2] = {
-        {1.00000000f, 0.00000000f},  {0.98078528f, 0.19509032f},  {0.92387953f, 0.38268343f},
-        {0.83146961f, 0.55557023f},  {0.70710678f, 0.70710678f},  {0.55557023f, 0.83146961f},
-        {0.38268343f, 0.92387953f},  {0.19509032f, 0.98078528f},  {0.00000000f, 1.00000000f},
-        {-0.19509032f, 0.98078528f}, {-0.38268343f, 0.92387953f}, {-0.55557023f, 0.83146961f},
-        {-0.70710678f, 0.70710678f}, {-0.83146961f, 0.55557023f}, {-0.92387953f, 0.38268343f},
-        {-0.98078528f, 0.19509032f}};
+    static const float way[WAYS][2] = {{1.00000000f, 0.00000000f},  {0.92387953f, 0.38268343f},
+                                       {0.70710678f, 0.70710678f},  {0.38268343f, 0.92387953f},
+                                       {0.00000000f, 1.00000000f},  {-0.38268343f, 0.92387953f},
+                                       {-0.70710678f, 0.70710678f}, {-0.92387953f, 0.38268343f}};
     float by = 1.0f / sqrtf(level), squares = 0.0f;
     for (uint32_t k = 0; k < WAYS; k++) {
         // Of the two ways on both sides of the fall, and no others.
         float along = fabsf(normal.x * way[k][0] + normal.z * way[k][1]) * by;
-        float weight = fmaxf(0.0f, (along - 0.98078528f) * (1.0f / 0.01921472f));
+        float weight = fmaxf(0.0f, (along - 0.92387953f) * (1.0f / 0.07612047f));
         if (weight > 0.0f) {
             Vec3 across = vec3(-way[k][1], 0.0f, way[k][0]);
             PatternOctaves one =
@@ -246,8 +243,8 @@ static void crumble(const SurfacePoint *point, Wall *w)
                                         surface_smooth_normal(point), SEED_CRUMB + k);
         float dome = smoothstepf(0.0f, 0.45f, cell.border);
         float high = dome * (0.6f + 0.8f * noise_unit(cell.cell, 3)) - 0.55f;
-        w->height += 0.3f * size * w->tall * seen * high;
-        w->shade = fmaxf(w->shade, 0.3f * seen * (1.0f - smoothstepf(0.0f, 0.15f, cell.border)));
+        w->height += 0.42f * size * w->tall * seen * high;
+        w->shade = fmaxf(w->shade, 0.38f * seen * (1.0f - smoothstepf(0.0f, 0.16f, cell.border)));
     }
 }
 
@@ -260,7 +257,7 @@ static Wall wall_at(const Material *m, const SurfacePoint *point)
     w.veil = pattern_octaves(point, 22.0f * s, 5, 0.6f, 0.6f, SEED_VEIL).value;
     w.rough = pattern_octaves(point, 1.7f * s, 8, 0.56f, 1.2f, SEED_FRAY).value;
     w.run = runnels(point, normal, 1.3f * s).value;
-    w.height = w.tall * s * (0.22f * w.run + 0.045f * w.rough);
+    w.height = w.tall * s * (0.2f * w.run + 0.03f * w.rough);
     if (strata) {
         float base = strata_base(strata, p.x, p.z);
         w.level = p.y - base + s * (0.4f * w.veil + 0.05f * w.rough);
