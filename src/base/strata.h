@@ -14,6 +14,7 @@ typedef struct StrataBed {
     float slope;     // degrees: the steepest face that stands; 0 = by the hardness
     Vec3 color;      // reflectance
     float lamina;    // m: mean thickness of its laminae; 0 = without
+    float ledge;     // m: how far the pattern badlands lets it stand out of the wall
 } StrataBed;
 
 // A vertical fault that strikes through a place; beds on the right of the strike lie lower.

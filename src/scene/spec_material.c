@@ -183,8 +183,9 @@ static const Key MATERIAL_KEYS[] = {
          "color2 where a branch still grows; sand: ripples of a sea "
          "floor; mountain: rock in blocks between beds and joints (with a terrain's beds in their "
          "colours relative to their mean), scree, grass and snow; "
-         "badlands: soft beds, a terrain's or bands of the colours about pattern_scale thick, that "
-         "fade under washed-down mud, with runnels, and washes of pale silt; water: ripples; "
+         "badlands: soft beds, a terrain's or bands of the colours about pattern_scale thick, with "
+         "ragged, sharp contacts, laminae, ledges, tongues of washed-down mud, crumbs of clay and "
+         "runnels, and washes of pale silt and gravel; water: ripples; "
          "altitude: a map's scale of colours over a terrain; strata: the colours of a "
          "terrain's beds, with rubble, soil (color) and shrubs (color2); hills: dry grasses in "
          "patches, fresh grass and scrub (color2) in hollows, bunches, rills, paths of cattle; "
@@ -249,8 +250,8 @@ static const Key MATERIAL_KEYS[] = {
      .names = DISPLACEMENTS,
      .doc = "Is the relief true geometry near the camera? auto: of barks, stone, "
             "masonry, dressed stone and "
-            "displacement_texture; on: of the patterns noise, strata, mountain, alps, coast and "
-            "karst, too; off: bumps everywhere. Meshes that "
+            "displacement_texture; on: of the patterns noise, strata, mountain, alps, coast, "
+            "karst and badlands, too; off: bumps everywhere. Meshes that "
             "are drawn once are diced to about 1.5 pixels (5 x render.detail) where the camera "
             "sees the relief; copies of an object keep bumps."},
     {KEY_OF(Material, moss, "moss", KEY_FLOAT), .kinds = PATTERNED, .high = 1,

@@ -226,6 +226,45 @@ static void storms_cut_rills(void **state)
     clear(&cut);
 }
 
+// m: mean height of a square about a place, in shares of the size, a tenth of the size wide.
+static double height_about(const HeightField *field, double u, double v)
+{
+    int half = field->columns / 20, count = 0;
+    int column = (int)((u + 0.5) * field->columns), row = (int)((v + 0.5) * field->rows);
+    double sum = 0.0;
+    for (int r = row - half; r <= row + half; r++) {
+        for (int c = column - half; c <= column + half; c++, count++) {
+            sum += (double)field->height[(int64_t)r * field->columns + c];
+        }
+    }
+    return sum / count;
+}
+
+// Where a stroke raises the land a butte stands, where one lowers it a wash is wide.
+static void strokes_make_buttes_and_washes(void **state)
+{
+    (void)state;
+    TerrainParams params = small();
+    UpliftStroke strokes[] = {
+        {.from = {0.2f, -0.2f}, .to = {0.2f, -0.2f}, .radius = 0.2f, .strength = 4.0f},
+        {.from = {-0.3f, 0.2f}, .to = {0.3f, 0.2f}, .radius = 0.15f, .strength = -0.85f}};
+    params.resolution = 128;
+    Made even = make(&params, 0);
+    params.uplift.strokes = strokes;
+    params.uplift.stroke_count = 2;
+    Made raised = make(&params, 0);
+    double butte = height_about(raised.field, 0.2, -0.2) / height_about(even.field, 0.2, -0.2);
+    double wash = height_about(raised.field, 0.0, 0.2) / height_about(even.field, 0.0, 0.2);
+    double before = measured(&even.list, "wash_share"),
+           after = measured(&raised.list, "wash_share");
+    printf("  heights: butte x %.2f, wash x %.2f; washes %.2f, before %.2f\n", butte, wash, after,
+           before);
+    assert_true(butte > 1.25 && wash < 0.75 && after > before);
+    assert_int_equal(height_field_pits(raised.field), 0);
+    clear(&even);
+    clear(&raised);
+}
+
 static void threads_change_nothing(void **state)
 {
     (void)state;
@@ -245,7 +284,7 @@ int main(void)
         cmocka_unit_test(walls_around_a_hole_are_a_cone), cmocka_unit_test(gentle_slopes_stay),
         cmocka_unit_test(creep_flattens_waves),           cmocka_unit_test(a_wash_fills_the_gorge),
         cmocka_unit_test(land_is_cut_as_badlands_are),    cmocka_unit_test(storms_cut_rills),
-        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(strokes_make_buttes_and_washes), cmocka_unit_test(threads_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

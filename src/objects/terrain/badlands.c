@@ -51,6 +51,18 @@ int terrain_badland_cells(const TerrainParams *params)
     return last_cells(&p);
 }
 
+// Land that rises faster is land whose streams cut less: in balance the slopes of both are the
+// same.
+static void raise_strokes(const Badlands *b, Landscape *land)
+{
+    const UpliftParams *uplift = &b->params.uplift;
+    for (int64_t i = 0; uplift->stroke_count > 0 && i < (int64_t)land->side * land->side; i++) {
+        double x = (double)(i % land->side) + 0.5, z = (double)(i / land->side) + 0.5;
+        land->weakness[i] /= terrain_stroke_uplift(uplift, (float)(x / land->side) - 0.5f,
+                                                   (float)(z / land->side) - 0.5f);
+    }
+}
+
 // No two gullies are alike, although the rock is.
 static void prepare(const Badlands *b, Landscape *land, const Run *run)
 {
@@ -62,6 +74,7 @@ static void prepare(const Badlands *b, Landscape *land, const Run *run)
                                  .least = 0.3f};
     terrain_open_outlets(b->terrain, b->params.badlands.outlets, land);
     terrain_set_weakness(land, &noise, random_key(b->terrain->seed, STREAM_WEAKNESS), run);
+    raise_strokes(b, land);
 }
 
 // Lumps of a few cells, which turn the water of even walls to each other: without them it would run

@@ -8,42 +8,42 @@
 // shares of the relief. Hard beds stand as cliffs, shales as slopes, and the broad bench above the
 // lowest sandstone is where a thick shale has weathered back.
 static const StrataBed CANYON[] = {
-    {0.077f, 0.85f, 0.0f, {0.56f, 0.46f, 0.34f}, 6.0f},  // limestone of the rim
-    {0.054f, 0.30f, 0.0f, {0.50f, 0.36f, 0.24f}, 3.0f},  // marl
-    {0.095f, 0.90f, 0.0f, {0.62f, 0.51f, 0.37f}, 12.0f}, // dune sandstone
-    {0.068f, 0.06f, 0.0f, {0.38f, 0.135f, 0.07f}, 2.5f}, // red shale
-    {0.036f, 0.70f, 0.0f, {0.44f, 0.20f, 0.115f}, 5.0f}, // red beds: ledges and slopes
-    {0.032f, 0.15f, 0.0f, {0.39f, 0.15f, 0.08f}, 2.0f},
-    {0.032f, 0.68f, 0.0f, {0.46f, 0.22f, 0.13f}, 5.0f},
-    {0.034f, 0.15f, 0.0f, {0.39f, 0.16f, 0.09f}, 2.0f},
-    {0.038f, 0.72f, 0.0f, {0.45f, 0.23f, 0.14f}, 5.0f},
-    {0.027f, 0.20f, 0.0f, {0.40f, 0.17f, 0.10f}, 2.0f},
-    {0.144f, 0.97f, 0.0f, {0.43f, 0.225f, 0.14f}, 14.0f}, // massive limestone, stained red
-    {0.041f, 0.50f, 0.0f, {0.37f, 0.30f, 0.215f}, 3.0f},
-    {0.108f, 0.03f, 22.0f, {0.30f, 0.27f, 0.19f}, 2.0f},   // green shale
-    {0.045f, 0.88f, 0.0f, {0.31f, 0.20f, 0.125f}, 4.0f},   // brown sandstone
-    {1.0f, 0.66f, 52.0f, {0.135f, 0.115f, 0.105f}, 0.0f}}; // dark schist
+    {0.077f, 0.85f, 0.0f, {0.56f, 0.46f, 0.34f}, 6.0f, 0.0f},  // limestone of the rim
+    {0.054f, 0.30f, 0.0f, {0.50f, 0.36f, 0.24f}, 3.0f, 0.0f},  // marl
+    {0.095f, 0.90f, 0.0f, {0.62f, 0.51f, 0.37f}, 12.0f, 0.0f}, // dune sandstone
+    {0.068f, 0.06f, 0.0f, {0.38f, 0.135f, 0.07f}, 2.5f, 0.0f}, // red shale
+    {0.036f, 0.70f, 0.0f, {0.44f, 0.20f, 0.115f}, 5.0f, 0.0f}, // red beds: ledges and slopes
+    {0.032f, 0.15f, 0.0f, {0.39f, 0.15f, 0.08f}, 2.0f, 0.0f},
+    {0.032f, 0.68f, 0.0f, {0.46f, 0.22f, 0.13f}, 5.0f, 0.0f},
+    {0.034f, 0.15f, 0.0f, {0.39f, 0.16f, 0.09f}, 2.0f, 0.0f},
+    {0.038f, 0.72f, 0.0f, {0.45f, 0.23f, 0.14f}, 5.0f, 0.0f},
+    {0.027f, 0.20f, 0.0f, {0.40f, 0.17f, 0.10f}, 2.0f, 0.0f},
+    {0.144f, 0.97f, 0.0f, {0.43f, 0.225f, 0.14f}, 14.0f, 0.0f}, // massive limestone, stained red
+    {0.041f, 0.50f, 0.0f, {0.37f, 0.30f, 0.215f}, 3.0f, 0.0f},
+    {0.108f, 0.03f, 22.0f, {0.30f, 0.27f, 0.19f}, 2.0f, 0.0f},   // green shale
+    {0.045f, 0.88f, 0.0f, {0.31f, 0.20f, 0.125f}, 4.0f, 0.0f},   // brown sandstone
+    {1.0f, 0.66f, 52.0f, {0.135f, 0.115f, 0.105f}, 0.0f, 0.0f}}; // dark schist
 
 // A thick sandstone over shale on a hard floor.
-static const StrataBed MESAS[] = {{0.06f, 0.80f, 0.0f, {0.42f, 0.19f, 0.11f}, 3.0f},
-                                  {0.04f, 0.25f, 0.0f, {0.40f, 0.15f, 0.085f}, 2.0f},
-                                  {0.44f, 0.93f, 83.0f, {0.48f, 0.215f, 0.115f}, 14.0f},
-                                  {0.10f, 0.10f, 0.0f, {0.37f, 0.13f, 0.075f}, 2.5f},
-                                  {0.035f, 0.60f, 0.0f, {0.44f, 0.18f, 0.105f}, 2.5f},
-                                  {0.12f, 0.08f, 0.0f, {0.36f, 0.125f, 0.07f}, 2.5f},
-                                  {0.03f, 0.60f, 0.0f, {0.44f, 0.19f, 0.11f}, 2.5f},
-                                  {0.14f, 0.05f, 26.0f, {0.38f, 0.14f, 0.08f}, 2.5f},
-                                  {1.0f, 0.92f, 0.0f, {0.45f, 0.24f, 0.15f}, 6.0f}};
+static const StrataBed MESAS[] = {{0.06f, 0.80f, 0.0f, {0.42f, 0.19f, 0.11f}, 3.0f, 0.0f},
+                                  {0.04f, 0.25f, 0.0f, {0.40f, 0.15f, 0.085f}, 2.0f, 0.0f},
+                                  {0.44f, 0.93f, 83.0f, {0.48f, 0.215f, 0.115f}, 14.0f, 0.0f},
+                                  {0.10f, 0.10f, 0.0f, {0.37f, 0.13f, 0.075f}, 2.5f, 0.0f},
+                                  {0.035f, 0.60f, 0.0f, {0.44f, 0.18f, 0.105f}, 2.5f, 0.0f},
+                                  {0.12f, 0.08f, 0.0f, {0.36f, 0.125f, 0.07f}, 2.5f, 0.0f},
+                                  {0.03f, 0.60f, 0.0f, {0.44f, 0.19f, 0.11f}, 2.5f, 0.0f},
+                                  {0.14f, 0.05f, 26.0f, {0.38f, 0.14f, 0.08f}, 2.5f, 0.0f},
+                                  {1.0f, 0.92f, 0.0f, {0.45f, 0.24f, 0.15f}, 6.0f, 0.0f}};
 
 // Sandstones and mudstones that dip along the shore, so that hard beds stand out as headlands.
-static const StrataBed COAST[] = {{0.20f, 0.74f, 0.0f, {0.225f, 0.170f, 0.118f}, 1.6f},
-                                  {0.08f, 0.50f, 0.0f, {0.088f, 0.080f, 0.074f}, 0.5f},
-                                  {0.15f, 0.68f, 0.0f, {0.275f, 0.222f, 0.160f}, 1.2f},
-                                  {0.05f, 0.44f, 0.0f, {0.072f, 0.067f, 0.064f}, 0.4f},
-                                  {0.27f, 0.80f, 0.0f, {0.190f, 0.136f, 0.100f}, 2.2f},
-                                  {0.10f, 0.55f, 0.0f, {0.108f, 0.097f, 0.088f}, 0.6f},
-                                  {0.11f, 0.70f, 0.0f, {0.262f, 0.200f, 0.138f}, 1.0f},
-                                  {0.04f, 0.46f, 0.0f, {0.076f, 0.071f, 0.068f}, 0.4f}};
+static const StrataBed COAST[] = {{0.20f, 0.74f, 0.0f, {0.225f, 0.170f, 0.118f}, 1.6f, 0.0f},
+                                  {0.08f, 0.50f, 0.0f, {0.088f, 0.080f, 0.074f}, 0.5f, 0.0f},
+                                  {0.15f, 0.68f, 0.0f, {0.275f, 0.222f, 0.160f}, 1.2f, 0.0f},
+                                  {0.05f, 0.44f, 0.0f, {0.072f, 0.067f, 0.064f}, 0.4f, 0.0f},
+                                  {0.27f, 0.80f, 0.0f, {0.190f, 0.136f, 0.100f}, 2.2f, 0.0f},
+                                  {0.10f, 0.55f, 0.0f, {0.108f, 0.097f, 0.088f}, 0.6f, 0.0f},
+                                  {0.11f, 0.70f, 0.0f, {0.262f, 0.200f, 0.138f}, 1.0f, 0.0f},
+                                  {0.04f, 0.46f, 0.0f, {0.076f, 0.071f, 0.068f}, 0.4f, 0.0f}};
 
 // As many as the dip needs, from above the highest land on one side to below the sea on the other.
 static int coast_beds(const TerrainParams *params, StrataBed *beds)
@@ -58,15 +58,15 @@ static int coast_beds(const TerrainParams *params, StrataBed *beds)
 }
 
 // Thick beds of pure limestone that stand as cliffs, with thin ones between them that make ledges.
-static const StrataBed KARST[] = {{0.13f, 0.80f, 74.0f, {0.30f, 0.295f, 0.28f}, 3.0f},
-                                  {0.012f, 0.60f, 34.0f, {0.25f, 0.24f, 0.215f}, 0.8f},
-                                  {0.17f, 0.85f, 79.0f, {0.32f, 0.31f, 0.285f}, 4.0f},
-                                  {0.009f, 0.60f, 38.0f, {0.26f, 0.245f, 0.22f}, 0.8f},
-                                  {0.21f, 0.90f, 81.0f, {0.31f, 0.305f, 0.29f}, 6.0f},
-                                  {0.014f, 0.60f, 33.0f, {0.25f, 0.24f, 0.22f}, 0.8f},
-                                  {0.24f, 0.90f, 80.0f, {0.33f, 0.32f, 0.295f}, 5.0f},
-                                  {0.010f, 0.60f, 40.0f, {0.26f, 0.25f, 0.225f}, 0.8f},
-                                  {1.0f, 0.90f, 85.0f, {0.32f, 0.315f, 0.30f}, 5.0f}};
+static const StrataBed KARST[] = {{0.13f, 0.80f, 74.0f, {0.30f, 0.295f, 0.28f}, 3.0f, 0.0f},
+                                  {0.012f, 0.60f, 34.0f, {0.25f, 0.24f, 0.215f}, 0.8f, 0.0f},
+                                  {0.17f, 0.85f, 79.0f, {0.32f, 0.31f, 0.285f}, 4.0f, 0.0f},
+                                  {0.009f, 0.60f, 38.0f, {0.26f, 0.245f, 0.22f}, 0.8f, 0.0f},
+                                  {0.21f, 0.90f, 81.0f, {0.31f, 0.305f, 0.29f}, 6.0f, 0.0f},
+                                  {0.014f, 0.60f, 33.0f, {0.25f, 0.24f, 0.22f}, 0.8f, 0.0f},
+                                  {0.24f, 0.90f, 80.0f, {0.33f, 0.32f, 0.295f}, 5.0f, 0.0f},
+                                  {0.010f, 0.60f, 40.0f, {0.26f, 0.25f, 0.225f}, 0.8f, 0.0f},
+                                  {1.0f, 0.90f, 85.0f, {0.32f, 0.315f, 0.30f}, 5.0f, 0.0f}};
 
 // Their thicknesses are shares of the relief.
 static int copy_beds(StrataBed *beds, const StrataBed *from, size_t count, float relief)
@@ -79,15 +79,15 @@ static int copy_beds(StrataBed *beds, const StrataBed *from, size_t count, float
 }
 
 // Massive beds that stand as walls, thin ones between them that make ledges; shares of a cycle.
-static const StrataBed ALPS[] = {{0.21f, 0.64f, 66.0f, {0.30f, 0.29f, 0.27f}, 0.0f},
-                                 {0.035f, 0.54f, 47.0f, {0.27f, 0.26f, 0.24f}, 0.0f},
-                                 {0.13f, 0.61f, 63.0f, {0.30f, 0.29f, 0.27f}, 0.0f},
-                                 {0.022f, 0.55f, 49.0f, {0.27f, 0.26f, 0.24f}, 0.0f},
-                                 {0.27f, 0.64f, 67.0f, {0.30f, 0.29f, 0.27f}, 0.0f},
-                                 {0.050f, 0.53f, 46.0f, {0.27f, 0.26f, 0.24f}, 0.0f},
-                                 {0.10f, 0.60f, 62.0f, {0.30f, 0.29f, 0.27f}, 0.0f},
-                                 {0.028f, 0.55f, 48.0f, {0.27f, 0.26f, 0.24f}, 0.0f},
-                                 {0.155f, 0.62f, 65.0f, {0.30f, 0.29f, 0.27f}, 0.0f}};
+static const StrataBed ALPS[] = {{0.21f, 0.64f, 66.0f, {0.30f, 0.29f, 0.27f}, 0.0f, 0.0f},
+                                 {0.035f, 0.54f, 47.0f, {0.27f, 0.26f, 0.24f}, 0.0f, 0.0f},
+                                 {0.13f, 0.61f, 63.0f, {0.30f, 0.29f, 0.27f}, 0.0f, 0.0f},
+                                 {0.022f, 0.55f, 49.0f, {0.27f, 0.26f, 0.24f}, 0.0f, 0.0f},
+                                 {0.27f, 0.64f, 67.0f, {0.30f, 0.29f, 0.27f}, 0.0f, 0.0f},
+                                 {0.050f, 0.53f, 46.0f, {0.27f, 0.26f, 0.24f}, 0.0f, 0.0f},
+                                 {0.10f, 0.60f, 62.0f, {0.30f, 0.29f, 0.27f}, 0.0f, 0.0f},
+                                 {0.028f, 0.55f, 48.0f, {0.27f, 0.26f, 0.24f}, 0.0f, 0.0f},
+                                 {0.155f, 0.62f, 65.0f, {0.30f, 0.29f, 0.27f}, 0.0f, 0.0f}};
 
 // Age makes them rotten, all alike. Land that no debris carves is of one rock.
 static int alps_beds(const TerrainParams *params, StrataBed *beds)

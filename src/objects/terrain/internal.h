@@ -153,6 +153,8 @@ float terrain_surveyed_at(const Terrain *terrain, float x, float z);
 
 // uplift.c: fills terrain->uplift, at least 0.02 at each node. Reads the user's picture.
 bool terrain_uplift(Terrain *terrain, const Run *run, Error *e);
+// What the strokes alone make of an uplift of 1 at a place in shares of the size; at least 0.02.
+float terrain_stroke_uplift(const UpliftParams *uplift, float u, float v);
 
 // areas.c: fills terrain->area: land drains through its nearest node.
 bool terrain_areas(Terrain *terrain, const Run *run, Error *e);

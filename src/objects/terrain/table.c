@@ -448,7 +448,8 @@ static const Key TERRAIN_KEYS[] = {
     {KEY_OF(TerrainParams, water_level, "water_level", KEY_FLOAT), .high = 1,
      .doc = "Level of a lake or the sea, as a fraction of the relief; 0 = none."},
     {KEY_OF(TerrainParams, uplift, "uplift", KEY_GROUP), .table = &UPLIFT_TABLE,
-     .doc = "Uplift of the land between rivers: high uplift makes mountains."},
+     .doc = "Uplift of the land between rivers: high uplift makes mountains. Of form: badlands the "
+            "strokes alone: high ones leave buttes, negative ones wide washes."},
     {KEY_OF(TerrainParams, rivers, "rivers", KEY_GROUP), .table = &RIVER_TABLE,
      .doc = "Rivers, which shape the land of form: rivers."},
     {KEY_OF(TerrainParams, ridges, "ridges", KEY_GROUP), .table = &RIDGE_TABLE,

@@ -11,7 +11,11 @@ static const Key BED_KEYS[] = {
      .doc = "Steepest face that stands; 0 = by the hardness, from 32 to 80."},
     {KEY_OF(StrataBed, color, "color", KEY_COLOR), .high = 1, .doc = "Reflectance."},
     {KEY_OF(StrataBed, lamina, "lamina", KEY_FLOAT), .high = 1e4, .unit = "m",
-     .doc = "Mean thickness of the layers within the bed; 0 = none."},
+     .doc = "Mean thickness of the layers within the bed, of which the pattern badlands shows a "
+            "seventh; 0 = none."},
+    {KEY_OF(StrataBed, ledge, "ledge", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Pattern badlands: how far the bed stands out of the wall as a ledge, broken along its "
+            "strike, with chips of it below."},
     {0},
 };
 

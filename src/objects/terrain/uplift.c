@@ -16,6 +16,23 @@ static float stroke_distance(const UpliftStroke *stroke, float x, float z)
     return sqrtf(px * px + pz * pz);
 }
 
+static float strokes_at(const UpliftParams *uplift, float u, float v)
+{
+    float sum = 0.0f;
+    for (int i = 0; i < uplift->stroke_count; i++) {
+        const UpliftStroke *stroke = &uplift->strokes[i];
+        float share = stroke_distance(stroke, u, v) / stroke->radius;
+        sum += stroke->strength * (1.0f - smoothstepf(0.0f, 1.0f, share));
+    }
+    return sum;
+}
+
+float terrain_stroke_uplift(const UpliftParams *uplift, float u, float v)
+{
+    float sum = 1.0f + strokes_at(uplift, u, v) / fmaxf(uplift->base, 0.02f);
+    return fmaxf(sum, 0.02f);
+}
+
 static float uplift_at(const TerrainParams *params, const Image *image, uint64_t seed, Vec3 p)
 {
     const UpliftParams *uplift = &params->uplift;
@@ -23,11 +40,7 @@ static float uplift_at(const TerrainParams *params, const Image *image, uint64_t
     float sum = uplift->base;
     sum *= 1.0f + 1.4f * uplift->noise *
                       noise_plane_fractal(u * 4.0f, v * 4.0f, 2, random_key(seed, STREAM_UPLIFT));
-    for (int i = 0; i < uplift->stroke_count; i++) {
-        const UpliftStroke *stroke = &uplift->strokes[i];
-        float share = stroke_distance(stroke, u, v) / stroke->radius;
-        sum += stroke->strength * (1.0f - smoothstepf(0.0f, 1.0f, share));
-    }
+    sum += strokes_at(uplift, u, v);
     if (image) {
         sum *= grey_at(image, u + 0.5f, v + 0.5f);
     }

@@ -130,6 +130,8 @@ float pattern_height(const Material *m, const SurfacePoint *point)
         return pattern_stone_height(m, point);
     case PATTERN_STRATA:
         return pattern_strata_height(m, point);
+    case PATTERN_BADLANDS:
+        return pattern_badlands_height(m, point);
     case PATTERN_NOISE:
         return noise_height(m, point);
     case PATTERN_MOUNTAIN:

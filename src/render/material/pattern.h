@@ -42,6 +42,7 @@ void pattern_ground(const Material *material, const SurfacePoint *point, Pattern
 void pattern_mountain(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_mountain_height(const Material *material, const SurfacePoint *point); // m
 void pattern_badlands(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_badlands_height(const Material *material, const SurfacePoint *point); // m
 void pattern_alps(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_alps_height(const Material *material, const SurfacePoint *point); // m
 void pattern_altitude(const Material *material, const SurfacePoint *point, PatternShade *shade);
