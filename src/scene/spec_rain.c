@@ -19,6 +19,9 @@ static const Key SHOWER_KEYS[] = {
      .doc = "Angle between the falling rain and the vertical."},
     {KEY_OF(Shower, streaks, "streaks", KEY_FLOAT), .high = 1,
      .doc = "How much the rain falls in shafts and veils: 0 = evenly, 1 = with gaps."},
+    {KEY_OF(Shower, ragged, "ragged", KEY_FLOAT), .high = 1,
+     .doc = "How far the shower's edge is frayed: 0 = round and even, 1 = in lobes and threads, "
+            "whose thin rain dries up before it reaches the ground."},
     {KEY_OF(Shower, seed, "seed", KEY_INT), .high = 1e9,
      .doc = "Changes the streaks of this shower alone."},
     {0},

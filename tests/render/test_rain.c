@@ -89,6 +89,7 @@ static void rain_lies_within_its_segment(void **state)
     shower.lean = 30.0f;
     shower.wind = 70.0f;
     shower.bottom = 200.0f;
+    shower.ragged = 0.5f;
     RainShaft shaft = rain_shaft(&shower, 3);
     int met = 0, wet = 0;
     for (int n = 0; n < 400; n++) {
@@ -143,6 +144,88 @@ static void extinction_is_that_of_the_rate(void **state)
     assert_true(rain_extinction(&shaft, vec3(0, 1200, 0)) == 0.0f);
 }
 
+// A shower of even rain with a frayed edge, 100 m below its base of 2000 m.
+static RainShaft frayed_shaft(float ragged)
+{
+    Shower shower = shower_default();
+    shower.streaks = 0.0f;
+    shower.lean = 0.0f;
+    shower.base = 2000.0f;
+    shower.radius = 1500.0f;
+    shower.ragged = ragged;
+    return rain_shaft(&shower, 3);
+}
+
+// Share of the rain in the middle at a distance from it that way, `fallen` m below the base.
+static double share_at(const RainShaft *shaft, double turn, double away, double fallen)
+{
+    Vec3 p = vec3((float)(away * cos(turn)), (float)(2000.0 - fallen), (float)(away * sin(turn)));
+    Vec3 top = vec3(0, 2000, 0);
+    return (double)(rain_extinction(shaft, p) / rain_extinction(shaft, top));
+}
+
+// Where less than a tenth of the rain is left, from the circle inward: least and greatest distance
+// about the shaft.
+static void edge_of(const RainShaft *shaft, double *least, double *greatest)
+{
+    *least = 1500.0;
+    *greatest = 0.0;
+    for (int i = 0; i < 360; i++) {
+        double away = 1500.0;
+        while (away > 0.0 && share_at(shaft, i * PI / 180.0, away, 100.0) < 0.1) {
+            away -= 10.0;
+        }
+        *least = fmin(*least, away);
+        *greatest = fmax(*greatest, away);
+    }
+}
+
+// A round shaft has its edge at one distance, a frayed one in lobes and threads, nowhere with a
+// step, and none beyond the circle.
+static void frayed_edges_are_ragged_without_steps(void **state)
+{
+    (void)state;
+    RainShaft even = frayed_shaft(0.0f), frayed = frayed_shaft(1.0f);
+    double least, greatest, step = 0.0;
+    edge_of(&even, &least, &greatest);
+    assert_true(greatest - least < 15.0);
+    edge_of(&frayed, &least, &greatest);
+    print_message("the frayed edge lies at %.0f to %.0f m of 1500 m\n", least, greatest);
+    assert_true(greatest - least > 500.0 && greatest < 1500.0);
+    for (int i = 0; i < 360; i += 5) {
+        double last = 0.0;
+        for (double away = 1500.0; away > 0.0; away -= 2.0) {
+            double share = share_at(&frayed, i * PI / 180.0, away, 100.0);
+            step = fmax(step, fabs(share - last));
+            last = share;
+        }
+    }
+    print_message("greatest change in 2 m: %.3f of the rain in the middle\n", step);
+    assert_true(step < 0.05);
+}
+
+// Thin rain at a frayed edge dries up before it reaches the ground; rain in the middle does not.
+static void frayed_edges_dry_up(void **state)
+{
+    (void)state;
+    RainShaft even = frayed_shaft(0.0f), frayed = frayed_shaft(1.0f);
+    int thin = 0, dry = 0;
+    for (int i = 0; i < 360; i += 3) {
+        for (double away = 0.0; away < 1500.0; away += 30.0) {
+            double turn = i * PI / 180.0, high = share_at(&frayed, turn, away, 10.0);
+            double low = share_at(&frayed, turn, away, 1990.0);
+            assert_true(low <= high + 1e-6);
+            assert_true(high < 0.7 || low > 0.95 * high);
+            thin += high > 1e-3 && high < 0.03;
+            dry += high > 1e-3 && high < 0.03 && low == 0.0;
+            double same = share_at(&even, turn, away, 1990.0);
+            assert_true(fabs(same - share_at(&even, turn, away, 10.0)) < 1e-6);
+        }
+    }
+    print_message("%d of %d places with thin rain are dry on the ground\n", dry, thin);
+    assert_true(thin > 50 && dry == thin);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -151,6 +234,8 @@ int main(void)
         cmocka_unit_test(directions_are_drawn_by_the_phase),
         cmocka_unit_test(rain_lies_within_its_segment),
         cmocka_unit_test(extinction_is_that_of_the_rate),
+        cmocka_unit_test(frayed_edges_are_ragged_without_steps),
+        cmocka_unit_test(frayed_edges_dry_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,6 +49,34 @@ static float streaks_at(const RainShaft *shaft, float x, float z)
     return clampf(1.0f + 2.4f * s * n, 1.0f - s, 1.0f + 1.5f * s);
 }
 
+// The share of the rain that falls at a place of the shaft's plane, `away` radii from its middle.
+// Fraying moves the edge in and out by lobes with threads in them; none of it leaves the circle.
+static float share_of_rain(const RainShaft *shaft, float x, float z, float away)
+{
+    float ragged = shaft->shower.ragged;
+    if (ragged == 0.0f) {
+        return 1.0f - smoothstepf(0.35f, 1.0f, away);
+    }
+    float width = 0.5f * shaft->shower.radius;
+    float lobes = noise_plane_fractal(x / width, z / width, 6, random_key(shaft->key, 1));
+    float frayed = away + ragged * (0.1f + 1.1f * lobes) * smoothstepf(0.0f, 0.5f, away);
+    float share = 1.0f - smoothstepf(lerpf(0.35f, 0.0f, ragged), 1.0f, frayed);
+    share *= lerpf(1.0f, share, ragged); // as seen through the whole shaft, it fades, too
+    return share * (1.0f - smoothstepf(0.75f, 1.0f, away));
+}
+
+// The share of that rain that is left after `fallen` m of `depth`. Where little falls, small drops
+// evaporate early: a frayed edge hangs as virga beside the rain that reaches the ground.
+static float share_left(const RainShaft *shaft, float share, float fallen, float depth)
+{
+    float ragged = shaft->shower.ragged;
+    if (ragged == 0.0f) {
+        return 1.0f;
+    }
+    float reach = depth * lerpf(1.0f, 0.3f + 3.0f * share, ragged);
+    return 1.0f - smoothstepf(0.4f * reach, reach, fallen);
+}
+
 float rain_extinction(const RainShaft *shaft, Vec3 p)
 {
     const Shower *shower = &shaft->shower;
@@ -63,7 +91,8 @@ float rain_extinction(const RainShaft *shaft, Vec3 p)
     if (away >= 1.0f) {
         return 0.0f;
     }
-    float edge = 1.0f - smoothstepf(0.35f, 1.0f, away);
+    float edge = share_of_rain(shaft, x, z, away);
+    edge *= share_left(shaft, edge, fallen, depth);
     float height =
         smoothstepf(-top, 0.0f, fallen) * (1.0f - smoothstepf(0.6f, 1.0f, fallen / depth));
     if (shower->bottom <= -1000.0f) { // it reaches the ground

@@ -16,6 +16,7 @@ typedef struct Shower {
     float wind;               // degrees from +Z toward +X: where the drops drift to
     float lean;               // degrees from the vertical
     float streaks;            // 0 = even, 1 = in shafts and veils
+    float ragged;             // 0 = a round shaft, 1 = a frayed edge that dries up as it falls
     int seed;                 // of this shower beside the scene's
 } Shower;
 
