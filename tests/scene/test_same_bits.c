@@ -39,6 +39,10 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
          "roots: {count: 3}, radii: {tip: 0.0024}, leaves: {max_count: 50, twig_radius: 0.011}}",
          0xe372e1cb8b2bc5d7},
         {"tree: {height: 4, light: {seasons: 16}, leaves: {max_count: 50}}", 0xc65a69bfa99fa1a8},
+        {"tree: {height: 4, light: {seasons: 16, attractors: {count: 400, reach: 20, envelope: "
+         "[{shape: ellipsoid, size: [1, 0.6, 1], position: [0.5, 3, 0]}]}}, leaves: {max_count: "
+         "50}}",
+         0x402623dbf27fc5b4},
         {"forest: {stands: 2, stand_trees: 2, height: 8, ferns: 10, leaves: {max_count: 50}}",
          0x1926e882d6db2c18},
         {"ground: {grass_tufts: 200}", 0x75671227db500027},

@@ -2,11 +2,12 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 enum { TAKEN = -2, NOBODY = -1 }; // instead of a metamer
 
-// The living metamers, sorted into cells as wide as the attractors' reach.
+// The living metamers, sorted into cells no wider than the attractors' reach.
 typedef struct Cells {
     Vec3 low;
     float edge; // internodes
@@ -63,6 +64,14 @@ static void cells_clear(Cells *cells)
     free(cells->item);
 }
 
+// Edge of the cells (internodes): a fraction of a far reach, as most of the metamers found are
+// near.
+static float cell_edge(float reach)
+{
+    const float least = 4.0f, share = 0.25f;
+    return fminf(reach, fmaxf(least, share * reach));
+}
+
 static bool cells_init(Cells *cells, const Plant *plant, float edge, Error *e)
 {
     Aabb box = plant_bounds(plant);
@@ -117,23 +126,46 @@ static void search_cell(const Cells *cells, int64_t cell, const Plant *plant, co
     }
 }
 
-// The metamer that an attractor draws, NOBODY or TAKEN.
+// Searches the cells that are `ring` cells from `at` along at least one axis and no farther along
+// any.
+static void search_ring(const Cells *cells, const int at[3], int ring, const Plant *plant,
+                        const bool *has_buds, Vec3 p, Search *search)
+{
+    int low[3], high[3];
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = at[axis] - ring > 0 ? at[axis] - ring : 0;
+        int last = cells->size[axis] - 1;
+        high[axis] = at[axis] + ring < last ? at[axis] + ring : last;
+    }
+    for (int z = low[2]; z <= high[2]; z++) {
+        for (int y = low[1]; y <= high[1]; y++) {
+            bool face = abs(z - at[2]) == ring || abs(y - at[1]) == ring;
+            for (int x = low[0]; x <= high[0] && search->found != TAKEN; x++) {
+                if (face || abs(x - at[0]) == ring) {
+                    int near[3] = {x, y, z};
+                    search_cell(cells, cell_at(cells, near), plant, has_buds, p, search);
+                }
+            }
+        }
+    }
+}
+
+// The metamer that an attractor draws, NOBODY or TAKEN: what lies beyond a ring of cells is farther
+// than the nearest found, so the rings' width does not change what is found.
 static int32_t find_drawn(const Cells *cells, const Plant *plant, const bool *has_buds,
                           const LightAttractors *params, Vec3 p)
 {
+    const float rounding = 0.999f;
     int at[3] = {(int)floorf((p.x - cells->low.x) / cells->edge),
                  (int)floorf((p.y - cells->low.y) / cells->edge),
                  (int)floorf((p.z - cells->low.z) / cells->edge)};
     Search search = {params->occupied * params->occupied, params->reach * params->reach, NOBODY};
-    for (int i = 0; i < 27 && search.found != TAKEN; i++) {
-        int near[3] = {at[0] + i % 3 - 1, at[1] + i / 3 % 3 - 1, at[2] + i / 9 - 1};
-        bool inside = true;
-        for (int axis = 0; axis < 3; axis++) {
-            inside = inside && near[axis] >= 0 && near[axis] < cells->size[axis];
+    for (int ring = 0; search.found != TAKEN; ring++) {
+        float nearest = rounding * cells->edge * (float)(ring - 1);
+        if (nearest > 0.0f && nearest * nearest > search.least2) {
+            break;
         }
-        if (inside) {
-            search_cell(cells, cell_at(cells, near), plant, has_buds, p, &search);
-        }
+        search_ring(cells, at, ring, plant, has_buds, p, &search);
     }
     return search.found;
 }
@@ -208,7 +240,7 @@ bool attractors_draw(Attractors *attractors, Plant *plant, int season, int leaf_
     }
     Cells cells;
     if (!reserve(attractors, plant, e) ||
-        !cells_init(&cells, plant, attractors->params->reach, e)) {
+        !cells_init(&cells, plant, cell_edge(attractors->params->reach), e)) {
         return false;
     }
     bool *has_buds = mark_buds(plant, season, leaf_seasons, e);
