@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static StrataBed section[] = {{40.0f, 0.9f, 76.0f, {0.5f, 0.5f, 0.5f}, 2.0f},
-                              {60.0f, 0.1f, 33.0f, {0.4f, 0.2f, 0.1f}, 2.0f},
-                              {50.0f, 0.8f, 70.0f, {0.5f, 0.3f, 0.1f}, 2.0f},
-                              {30.0f, 0.4f, 45.0f, {0.3f, 0.3f, 0.3f}, 2.0f}};
+static StrataBed section[] = {{40.0f, 0.9f, 76.0f, {0.5f, 0.5f, 0.5f}, 2.0f, 0.0f},
+                              {60.0f, 0.1f, 33.0f, {0.4f, 0.2f, 0.1f}, 2.0f, 0.0f},
+                              {50.0f, 0.8f, 70.0f, {0.5f, 0.3f, 0.1f}, 2.0f, 0.0f},
+                              {30.0f, 0.4f, 45.0f, {0.3f, 0.3f, 0.3f}, 2.0f, 0.0f}};
 
 static Strata *stack(float dip, float azimuth, Vec3 origin)
 {
