@@ -92,38 +92,6 @@ static PatternOctaves runnels(const SurfacePoint *point, Vec3 normal, float widt
 
 // ---- beds
 
-// The mean colour of the beds from `low` to `high`: contacts are as wide as that.
-static Vec3 beds_between(const Strata *strata, float low, float high)
-{
-    Vec3 sum = {0};
-    int bed = strata_bed(strata, high);
-    for (float top = high; top > low; bed++) {
-        bool last = bed == strata->bed_count - 1;
-        float floor = last ? low : fmaxf(strata->floor[bed], low);
-        sum = vec3_madd(sum, (top - floor) / (high - low), strata->bed[bed].color);
-        top = floor;
-        if (last) {
-            break;
-        }
-    }
-    return sum;
-}
-
-// Laminae of three thicknesses, all finer than the bed's mean ones, about 0..1; 0.5 where the pixel
-// shows none.
-static float laminae(const Strata *strata, float level, float footprint)
-{
-    int bed = strata_bed(strata, level);
-    float lamina = 0.14f * strata->bed[bed].lamina;
-    if (lamina <= 0.0f) {
-        return 0.5f;
-    }
-    uint32_t seed = 7919u * (uint32_t)bed;
-    return 0.45f * pattern_lamina(level, lamina, footprint, 0.85f, seed + 11) +
-           0.33f * pattern_lamina(level, 0.31f * lamina, footprint, 0.8f, seed + 13) +
-           0.22f * pattern_lamina(level, 0.09f * lamina, footprint, 0.75f, seed + 17);
-}
-
 // The phase of a level within beds of this thickness, gently folded.
 static float own_level(const SurfacePoint *point, float thickness)
 {
@@ -133,11 +101,12 @@ static float own_level(const SurfacePoint *point, float thickness)
     return (0.05f * p.x + p.y + 0.03f * p.z) / thickness + fold;
 }
 
-static float own_tone(float level, uint32_t seed)
+// blur: the height that a pixel covers, in beds.
+static float own_tone(float level, float blur, uint32_t seed)
 {
     float floor_level = floorf(level), t = level - floor_level;
     uint32_t bed = (uint32_t)(int32_t)floor_level * 2654435761u + seed;
-    float soft = 0.9f - 0.6f * noise_unit(bed, 4);
+    float soft = 1.0f - clampf(0.03f + 0.12f * noise_unit(bed, 4), blur, 1.0f);
     return lerpf(noise_unit(bed, 3), noise_unit(bed + 2654435761u, 3), smoothstepf(soft, 1.0f, t));
 }
 
@@ -145,8 +114,10 @@ static float own_tone(float level, uint32_t seed)
 static Vec3 own_bed(const Material *m, const SurfacePoint *point, Vec3 base, float rough)
 {
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 40.0f;
-    float level = own_level(point, scale) + 0.05f * rough, tone = own_tone(level, 11);
-    tone = lerpf(tone, own_tone(3.7f * level, 13),
+    float level = own_level(point, scale) + 0.05f * rough,
+          blur = fminf(point->footprint / scale, 1.0f);
+    float tone = own_tone(level, blur, 11);
+    tone = lerpf(tone, own_tone(3.7f * level, fminf(3.7f * blur, 1.0f), 13),
                  0.45f * pattern_detail(0.3f * scale, point->footprint));
     Vec3 pale = {0.47f, 0.36f, 0.25f}, dark = {0.16f, 0.065f, 0.043f};
     Vec3 color = vec3_lerp(base, m->color2, smoothstepf(0.25f, 0.55f, tone));
@@ -262,7 +233,7 @@ static Wall wall_at(const Material *m, const SurfacePoint *point)
         float base = strata_base(strata, p.x, p.z);
         w.level = p.y - base + s * (0.4f * w.veil + 0.05f * w.rough);
         w.hardness = strata->bed[strata_bed(strata, w.level)].hardness;
-        w.tone = laminae(strata, w.level, point->footprint);
+        w.tone = beds_lamina_tone(strata, w.level, point->footprint, 0.14f);
         float firm = 0.25f + 0.75f * smoothstepf(0.2f, 0.5f, w.hardness);
         w.height += 0.22f * w.tall * s * firm * (w.tone - 0.5f);
         stand_out(point, &w);
@@ -280,12 +251,12 @@ static Vec3 washed_beds(const SurfacePoint *point, const Wall *w, float gully)
     const Strata *strata = point->strata;
     const float contact = 0.02f; // m
     float half = 0.5f * (contact + point->footprint);
-    Vec3 own = beds_between(strata, w->level - half, w->level + half);
+    Vec3 own = beds_mean_between(strata, w->level - half, w->level + half);
     float streak =
         pattern_fall_lines(point, 0.45f * w->scale, 4, 0.7f, SEED_TONGUE).value + 0.25f * w->veil;
     float tongue = smoothstepf(-0.05f, 0.6f, streak - 0.15f * w->run + 0.3f * gully);
     float above = w->level + w->scale * (0.1f + 2.2f * tongue);
-    Vec3 mud = beds_between(strata, above - half, above + half + 0.4f * w->scale * tongue);
+    Vec3 mud = beds_mean_between(strata, above - half, above + half + 0.4f * w->scale * tongue);
     float firm = smoothstepf(0.35f, 0.55f, w->hardness);
     float share =
         clampf(0.12f + 0.6f * tongue + 0.1f * w->rough, 0.0f, 0.8f) * (1.0f - 0.7f * firm);

@@ -21,20 +21,6 @@ enum {
     SEED_SHRUB = 350
 };
 
-// The laminae of a bed at three scales, about 0..1; 0.5 = none.
-static float lamina_tone(const Strata *strata, float level, float footprint)
-{
-    int number = strata_bed(strata, level);
-    float lamina = strata->bed[number].lamina;
-    if (lamina <= 0.0f) {
-        return 0.5f;
-    }
-    uint32_t seed = 7919u * (uint32_t)number;
-    return 0.5f * pattern_lamina(level, lamina, footprint, 0.75f, seed + 11) +
-           0.3f * pattern_lamina(level, 0.27f * lamina, footprint, 0.75f, seed + 13) +
-           0.2f * pattern_lamina(level, 0.07f * lamina, footprint, 0.75f, seed + 17);
-}
-
 static float scale_of(const Material *m)
 {
     return m->pattern_scale > 0.0f ? m->pattern_scale : 36.0f;
@@ -56,7 +42,7 @@ static Ground rock(const Material *m, const SurfacePoint *point, float level, fl
     PatternOctaves rough = pattern_octaves(point, scale, 8, 0.55f, 1.2f, SEED_ROUGH);
     PatternOctaves streaks = pattern_octaves(point, 1.4f * scale, 6, 0.62f, 0.16f, SEED_STREAK + 8);
     float bent = level + 0.02f * scale * rough.value;
-    float tone = lamina_tone(point->strata, bent, footprint);
+    float tone = beds_lamina_tone(point->strata, bent, footprint, 1.0f);
     Ground g = {.color = beds_mean_color(point->strata, level, footprint)};
     g.color = vec3_scale(g.color, 0.8f + 0.4f * tone);
     g.color = vec3_scale(g.color, clampf(1.0f + 0.2f * rough.value, 0.6f, 1.4f));
@@ -141,7 +127,7 @@ float pattern_strata_height(const Material *m, const SurfacePoint *point)
     PatternOctaves rough = pattern_octaves(point, scale_of(m), 8, 0.5f, 1.2f, SEED_ROUGH);
     PatternOctaves joints =
         pattern_octaves(point, 0.55f * scale_of(m), 6, 0.6f, 0.13f, SEED_STREAK);
-    float tone = lamina_tone(point->strata, level, point->footprint) - 0.5f;
+    float tone = beds_lamina_tone(point->strata, level, point->footprint, 1.0f) - 0.5f;
     float face = steep * (0.7f * tone - 0.3f * joints.value);
     return m->pattern_depth * (face + (0.04f + 0.2f * steep) * rough.value);
 }
