@@ -26,6 +26,7 @@
     X(stone)        \
     X(scatter)      \
     X(row)          \
+    X(swarm)        \
     X(sea)          \
     X(snow_crystal) \
     X(frost_flower) \

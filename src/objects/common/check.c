@@ -13,6 +13,13 @@ bool check_scale(const Mapping *mapping, Vec3 scale)
            mapping_fail(mapping, "scale", " has a 0; every factor must differ from 0");
 }
 
+bool check_range(const Mapping *mapping, const char *key, const float range[2])
+{
+    return range[0] <= range[1] ||
+           mapping_fail(mapping, key, " is [%g, %g]; the first must not exceed the second",
+                        (double)range[0], (double)range[1]);
+}
+
 bool check_mesh_file(const Mapping *mapping, const char *path)
 {
     Error e = {0};

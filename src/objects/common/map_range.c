@@ -47,9 +47,7 @@ static void defaults(void *out)
 static bool check(const Mapping *mapping, void *params)
 {
     const MapRange *range = params;
-    return range->map == HEIGHT_MAP_ASPECT || range->range[0] <= range->range[1] ||
-           mapping_fail(mapping, "range", " is [%g, %g]; the first must not exceed the second",
-                        (double)range->range[0], (double)range->range[1]);
+    return range->map == HEIGHT_MAP_ASPECT || check_range(mapping, "range", range->range);
 }
 
 const Table map_range_table = {

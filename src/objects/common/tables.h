@@ -49,6 +49,9 @@ bool check_mesh_file(const Mapping *mapping, const char *path);
 // The scale of colours under `colors` ascends.
 bool check_color_stops(const Mapping *mapping, const ColorStop *stops, int count);
 
+// A least and a greatest value under a key are in this order.
+bool check_range(const Mapping *mapping, const char *key, const float range[2]);
+
 // No factor of the mapping's `scale` is 0.
 bool check_scale(const Mapping *mapping, Vec3 scale);
 

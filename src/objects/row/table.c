@@ -1,5 +1,5 @@
 // The keys of a row.
-#include "config/load.h"
+#include "objects/common/tables.h"
 #include "objects/row/row.h"
 
 RowParams row_params_default(void)
@@ -67,9 +67,7 @@ static bool check_row(const Mapping *mapping, void *params)
         return mapping_fail(mapping, "spacing", " is %g m; that makes more than 1e7 copies",
                             (double)row->spacing);
     }
-    return row->scale[0] <= row->scale[1] ||
-           mapping_fail(mapping, "scale", " is [%g, %g]; the first must not exceed the second",
-                        (double)row->scale[0], (double)row->scale[1]);
+    return check_range(mapping, "scale", row->scale);
 }
 
 static void row_defaults(void *out)

@@ -80,13 +80,6 @@ int64_t scattering_most(const ScatteringParams *params)
     return across * across * params->count;
 }
 
-static bool check_range(const Mapping *mapping, const char *key, const float range[2])
-{
-    return range[0] <= range[1] ||
-           mapping_fail(mapping, key, " is [%g, %g]; the first must not exceed the second",
-                        (double)range[0], (double)range[1]);
-}
-
 static bool check_scatter(const Mapping *mapping, void *params)
 {
     const ScatteringParams *scatter = params;

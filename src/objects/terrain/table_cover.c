@@ -59,9 +59,7 @@ static const Key LAKE_KEYS[] = {
 static bool check_lakes(const Mapping *mapping, void *params)
 {
     const TerrainLakeParams *lakes = params;
-    return lakes->altitude[0] <= lakes->altitude[1] ||
-           mapping_fail(mapping, "altitude", " is [%g, %g]; the first must not exceed the second",
-                        (double)lakes->altitude[0], (double)lakes->altitude[1]);
+    return check_range(mapping, "altitude", lakes->altitude);
 }
 
 const Table terrain_lake_table = {
