@@ -2,6 +2,7 @@
 
 #include "base/exact_math.h"
 #include "base/random.h"
+#include "base/turn.h"
 #include "grow/light/attractors.h"
 #include "grow/light/share.h"
 
@@ -29,13 +30,6 @@ static float of_order(Vec3 v, int order)
     return order <= 0 ? v.x : (order == 1 ? v.y : v.z);
 }
 
-static Vec3 rotated(Vec3 v, Vec3 axis, float degrees)
-{
-    float sine, cosine;
-    exact_sincos(degrees * RADIANS_PER_DEGREE, &sine, &cosine);
-    return vec3_rotate(v, axis, cosine, sine);
-}
-
 static Vec3 across(Vec3 v, Vec3 direction)
 {
     Vec3 flat = vec3_madd(v, -vec3_dot(v, direction), direction);
@@ -46,7 +40,7 @@ static Vec3 across(Vec3 v, Vec3 direction)
 // level plane.
 static Vec3 bud_side(const Shooting *s, const Metamer *m, int bud, int buds)
 {
-    Vec3 side = rotated(m->side, m->direction, 360.0f * (float)bud / (float)buds);
+    Vec3 side = vec3_turn(m->side, m->direction, 360.0f * (float)bud / (float)buds);
     float flat = m->order > 0 ? s->params->plagiotropy : 0.0f;
     Vec3 level = vec3_cross(vec3(0, 1, 0), m->direction);
     if (flat <= 0.0f || vec3_dot(level, level) < 1e-4f) {
@@ -93,7 +87,7 @@ static Vec3 first_direction(const Shooting *s, const Metamer *base, int bud)
         d = side_direction(s, base, 0, RELAY_ANGLE, key);
     } else if (base->parent >= 0 && base->season > 0) {
         float degrees = base->order == 0 ? 0.5f * p->zigzag : p->zigzag;
-        d = rotated(d, vec3_cross(d, base->side), degrees);
+        d = vec3_turn(d, vec3_cross(d, base->side), degrees);
     }
     Vec3 noise = vec3(random_normal(random_key(key, STREAM_NOISE)),
                       random_normal(random_key(key, STREAM_NOISE + 1)),
@@ -166,7 +160,7 @@ static void finish_metamer(const Shooting *s, Metamer *m, int place, bool last)
     m->birth = 1 + s->season * (int)vec3_largest(p->shoot) + place;
     m->terminal = last;
     m->buds = p->whorl <= 0 || last ? (1u << (unsigned)bud_count(p, m->order)) - 1u : lone;
-    m->side = across(rotated(m->side, m->direction, p->phyllotaxis), m->direction);
+    m->side = across(vec3_turn(m->side, m->direction, p->phyllotaxis), m->direction);
 }
 
 // Makes one shoot of bud number `bud` (-1 = terminal) of a metamer.

@@ -3,6 +3,7 @@
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "base/turn.h"
 #include "grow/plume/plume_free.h"
 
 #include <stdlib.h>
@@ -67,13 +68,6 @@ static Vec3 tangent(Vec3 d, Vec3 normal)
     return length > 1e-12f ? vec3_scale(d, 1.0f / length) : vec3_perpendicular(normal);
 }
 
-static Vec3 turned(Vec3 d, Vec3 normal, float degrees)
-{
-    float s, c;
-    exact_sincos(degrees * RADIANS_PER_DEGREE, &s, &c);
-    return vec3_rotate(d, normal, c, s);
-}
-
 // Appends a node; returns its index, or -1 and e.
 static int32_t add_node(Plumes *plumes, Vec3 p, int32_t parent, int32_t colony, uint64_t id,
                         Error *e)
@@ -121,7 +115,7 @@ static bool add_branch(Plumes *plumes, const Tip *tip, int side, Error *e)
                       order->angle + params->spread * random_normal(random_key(key, STREAM_ANGLE)),
                   .most = order->taper > 0.0f && limit < most ? limit : most};
     branch.heading =
-        turned(tip->heading, plumes->tree->normal[tip->node], branch.side * branch.foot);
+        vec3_turn(tip->heading, plumes->tree->normal[tip->node], branch.side * branch.foot);
     begin_spacing(plumes, &branch, key);
     return add_tip(&plumes->later, &branch, e);
 }
@@ -175,12 +169,12 @@ static Vec3 field_at(const Plumes *plumes, Tip *tip)
     if (tip->order == RIB) {
         Vec3 away = vec3_sub(plumes->tree->position[tip->node], start->position);
         float turn = exact_atan2(start->turn * vec3_length(away), 1.0f);
-        return turned(tangent(away, normal), normal, turn / RADIANS_PER_DEGREE);
+        return vec3_turn(tangent(away, normal), normal, turn / RADIANS_PER_DEGREE);
     }
     const PlumeOrder *order = &plumes->params->order[tip->order];
     Vec3 along = tangent(guide_direction(plumes, tip), normal);
     float bent = order->curl * clampf(tip->length / order->length, 0.0f, 1.0f);
-    return turned(along, normal, tip->side * (tip->foot - bent));
+    return vec3_turn(along, normal, tip->side * (tip->foot - bent));
 }
 
 // The node of the tip's next step, or -1 if it ends, or on failure, which sets *failed.

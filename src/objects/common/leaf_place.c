@@ -2,6 +2,7 @@
 
 #include "base/exact_math.h"
 #include "base/random.h"
+#include "base/turn.h"
 
 // Of a leaf; LEAVES + k: leaf k of a node.
 enum {
@@ -128,9 +129,7 @@ static Transform leaf_frame(const LeavesParams *leaves, Vec3 p, Vec3 along, Vec3
 
 static Vec3 side_at(const LeafNode *node, float degrees)
 {
-    float sine, cosine;
-    exact_sincos(degrees * RADIANS_PER_DEGREE, &sine, &cosine);
-    return vec3_rotate(node->reference, node->along, cosine, sine);
+    return vec3_turn(node->reference, node->along, degrees);
 }
 
 // Scales about the frame's origin.

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/noise.h"
 #include "base/random.h"
+#include "base/turn.h"
 #include "grow/plume/plume.h"
 #include "objects/frost/surface.h"
 #include "outtree/crossings.h"
@@ -48,14 +49,12 @@ static bool add_start(Starts *starts, const FrostParams *params, Vec3 p, Vec3 ai
     Vec3 heading = vec3_madd(aim, -vec3_dot(aim, normal), normal);
     heading =
         vec3_dot(heading, heading) > 1e-8f ? vec3_normalize(heading) : vec3_perpendicular(normal);
-    float s, c;
-    exact_sincos(degrees * RADIANS_PER_DEGREE, &s, &c);
     float strength = random_range(random_key(key, STREAM_TURN), 0.4f, 1.3f);
     strength *= random_unit(random_key(key, STREAM_SENSE)) < 0.3f ? -1.0f : 1.0f;
     float late = random_unit(random_key(key, STREAM_LATE));
     float path = 0.35f * sqrtf(frost_area(params)) / (STEP * frost_side_spacing(params));
     PlumeStart start = {.position = p,
-                        .heading = vec3_rotate(heading, normal, c, s),
+                        .heading = vec3_turn(heading, normal, degrees),
                         .turn = strength * params->turn * RADIANS_PER_DEGREE /
                                 sqrtf(frost_area(params)),
                         .birth = (int32_t)(late * late * path),

@@ -1,6 +1,6 @@
 // Where the copies of a row stand: even steps along its line, each displaced a little.
-#include "base/exact_math.h"
 #include "base/random.h"
+#include "base/turn.h"
 #include "land/height_raster.h"
 #include "objects/row/row.h"
 
@@ -83,13 +83,6 @@ static Vec3 rise(const RowParams *params, const Footing *footing, Vec3 p, Vec3 d
     return vec3_normalize(level);
 }
 
-static Vec3 rotated(Vec3 v, Vec3 axis, float degrees)
-{
-    float sine, cosine;
-    exact_sincos(degrees * RADIANS_PER_DEGREE, &sine, &cosine);
-    return vec3_rotate(v, axis, cosine, sine);
-}
-
 static Transform stand(const RowParams *params, const Footing *footing, float distance,
                        uint64_t key)
 {
@@ -104,11 +97,11 @@ static Transform stand(const RowParams *params, const Footing *footing, float di
     p = vec3_madd(p, random_within(key, STREAM_JITTER + 2, params->jitter[2]), z);
     p.y = params->on_land ? height_below(footing, p.x, p.z) : p.y;
     Vec3 y = vec3_cross(z, x);
-    x = rotated(x, y, random_within(key, STREAM_TURN, params->turn));
-    Vec3 lean = rotated(x, y, random_within(key, STREAM_LEAN_AZIMUTH, 180.0f));
+    x = vec3_turn(x, y, random_within(key, STREAM_TURN, params->turn));
+    Vec3 lean = vec3_turn(x, y, random_within(key, STREAM_LEAN_AZIMUTH, 180.0f));
     float tilt = random_within(key, STREAM_LEAN, params->tilt);
-    x = rotated(x, lean, tilt);
-    y = rotated(y, lean, tilt);
+    x = vec3_turn(x, lean, tilt);
+    y = vec3_turn(y, lean, tilt);
     float size = random_range(random_key(key, STREAM_SIZE), params->scale[0], params->scale[1]);
     p.y += random_within(key, STREAM_JITTER + 1, params->jitter[1]);
     return transform_from_axes(vec3_scale(x, size), vec3_scale(y, size),

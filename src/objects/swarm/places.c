@@ -1,8 +1,8 @@
 // Where the copies of a swarm are and where they head: random points of its region, of which those
 // are kept that are not too near to another; neighbours head alike.
-#include "base/exact_math.h"
 #include "base/noise.h"
 #include "base/random.h"
+#include "base/turn.h"
 #include "objects/swarm/swarm.h"
 #include "shape/point_hash.h"
 #include "shape/points.h"
@@ -39,13 +39,6 @@ static float random_within(uint64_t key, int stream, float most)
     return random_range(random_key(key, (uint64_t)stream), -most, most);
 }
 
-static Vec3 rotated(Vec3 v, Vec3 axis, float degrees)
-{
-    float sine, cosine;
-    exact_sincos(degrees * RADIANS_PER_DEGREE, &sine, &cosine);
-    return vec3_rotate(v, axis, cosine, sine);
-}
-
 static Transform stand(const SwarmParams *params, uint64_t seed, Vec3 p, uint64_t key)
 {
     // the noise reaches 0.7
@@ -54,10 +47,10 @@ static Transform stand(const SwarmParams *params, uint64_t seed, Vec3 p, uint64_
         0.7f;
     float azimuth =
         params->azimuth + params->swirl * swirl + random_within(key, STREAM_STRAY, params->stray);
-    Vec3 up = vec3(0, 1, 0), forward = rotated(vec3(0, 0, -1), up, -azimuth);
+    Vec3 up = vec3(0, 1, 0), forward = vec3_turn(vec3(0, 0, -1), up, -azimuth);
     Vec3 left = vec3_cross(up, forward);
-    forward = rotated(forward, left, random_within(key, STREAM_CLIMB, params->climb));
-    left = rotated(left, forward, random_within(key, STREAM_ROLL, params->roll));
+    forward = vec3_turn(forward, left, random_within(key, STREAM_CLIMB, params->climb));
+    left = vec3_turn(left, forward, random_within(key, STREAM_ROLL, params->roll));
     float size = random_range(random_key(key, STREAM_SIZE), params->scale[0], params->scale[1]);
     return transform_from_axes(vec3_scale(left, size), vec3_scale(vec3_cross(forward, left), size),
                                vec3_scale(forward, size), p);
