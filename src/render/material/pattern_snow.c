@@ -103,12 +103,11 @@ static float print(Vec3 p, float share)
     float middle = STEP * (step + 0.16f * (noise_unit(hash, 1) - 0.5f));
     float side = fmodf(fabsf(step), 2.0f) < 0.5f ? 0.035f : -0.035f;
     float x = (t - middle) / (0.06f + 0.02f * noise_unit(hash, 2));
-    float z = (across - track_at(middle, number) - side) / 0.05f;
-    float away =
-        sqrtf(x * x + z * z) + 0.25f * noise_solid(vec3_scale(p, 22.0f), SEED_TRACKS, NULL);
+    float z = (across - track_at(middle, number) - side) / 0.042f;
+    float away = sqrtf(x * x + z * z) + 0.4f * noise_solid(vec3_scale(p, 26.0f), SEED_TRACKS, NULL);
     float inner = 1.0f - smoothstepf(0.5f, 1.1f, away);
     float rim = smoothstepf(0.8f, 1.2f, away) * (1.0f - smoothstepf(1.2f, 1.7f, away));
-    return 0.014f * rim - lerpf(0.06f, 0.1f, noise_unit(hash, 3)) * inner;
+    return 0.006f * rim - lerpf(0.06f, 0.1f, noise_unit(hash, 3)) * inner;
 }
 
 // Height at p (m, of the object), m.
