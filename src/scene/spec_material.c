@@ -54,6 +54,7 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"silt", PATTERN_SILT},
                                     {"heath", PATTERN_HEATH},
                                     {"ice", PATTERN_ICE},
+                                    {"snow", PATTERN_SNOW},
                                     {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED},
@@ -203,7 +204,10 @@ static const Key MATERIAL_KEYS[] = {
          "mountains: dry and lush grass (color), bushes, stones, and worn tracks of soil (color2) "
          "down steep ground, in patches of pattern_scale; ice: new ice, best of kind principled, "
          "dark and glossy (color), dull with haze in patches of pattern_scale and dusted with "
-         "grains of rime (color2); none: one colour."},
+         "grains of rime (color2); snow: settled snow in hummocks of pattern_scale, with ripples "
+         "of "
+         "the wind in places, pits and crumbs of what fell from trees, and tracks of a fox "
+         "(scars); none: one colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
             "and ash, on thick branches; with a pattern_scale below 0.02, as of a miniature tree, "
@@ -251,7 +255,7 @@ static const Key MATERIAL_KEYS[] = {
      .doc = "Is the relief true geometry near the camera? auto: of barks, stone, "
             "masonry, dressed stone and "
             "displacement_texture; on: of the patterns noise, strata, mountain, alps, coast, "
-            "karst and badlands, too; off: bumps everywhere. Meshes that "
+            "karst, badlands and snow, too; off: bumps everywhere. Meshes that "
             "are drawn once are diced to about 1.5 pixels (5 x render.detail) where the camera "
             "sees the relief; copies of an object keep bumps."},
     {KEY_OF(Material, moss, "moss", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
@@ -265,7 +269,7 @@ static const Key MATERIAL_KEYS[] = {
          "of its dead patches and undersides is pink with coralline algae."},
     {KEY_OF(Material, scars, "scars", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern bark: how many knots and scars of shed limbs it has; reef: how many bites of "
-            "parrotfish."},
+            "parrotfish; snow: how many of the tracks of a fox there are, at most one in 11 m."},
     {KEY_OF(Material, ribs, "ribs", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern bark: depth of ribs along a thick stem, 1 = half of its radius; only where it "
             "is displaced."},

@@ -321,6 +321,61 @@ static void a_level_sheet_bears_its_depth(void **state)
     mesh_free(mesh);
 }
 
+// The crumbs on the bearers, which are freed. *volume: of the pillows beside them.
+static SnowCrumbs crumbs_on(Bearers on, SnowParams params, const SnowReach *reach, double *body)
+{
+    SnowPile pile = {0};
+    assert_true(snow_add_pillows(&pile, on.bearer, on.count, &params, reach, 5, NULL));
+    Mesh *mesh = snow_pile_mesh(&pile, NULL);
+    assert_non_null(mesh);
+    *body = volume(mesh);
+    mesh_free(mesh);
+    SnowCrumbs crumbs = pile.crumbs;
+    pile.crumbs = (SnowCrumbs){0};
+    snow_pile_clear(&pile);
+    free(on.bearer);
+    return crumbs;
+}
+
+// A level sheet bears a pillow, with crumbs at its rim alone; one so steep that pillows slide off
+// bears crumbs all over. Crumbs change no pillow, and where no snow comes there are none.
+static void crumbs_lie_beside_pillows(void **state)
+{
+    (void)state;
+    const float half = 0.3f, size = 0.02f;
+    SnowParams params = calm(DEPTH, 0.0f, 0.05f), with = params;
+    with.crumbs = size;
+    int64_t count[2];
+    for (int k = 0; k < 2; k++) {
+        double body[2];
+        float slope = k == 0 ? 0.0f : 2.5f; // 68 degrees
+        Bearers on = {0}, same = {0};
+        add_sheet(&on, vec3(0, 1, 0), 2.0f * half, 2.0f * half, slope);
+        add_sheet(&same, vec3(0, 1, 0), 2.0f * half, 2.0f * half, slope);
+        SnowCrumbs none = crumbs_on(same, params, &OPEN, &body[0]);
+        SnowCrumbs all = crumbs_on(on, with, &OPEN, &body[1]);
+        assert_int_equal(none.count, 0);
+        assert_true(body[0] == body[1] && (body[0] > 0.0) == (k == 0));
+        int64_t inner = 0;
+        for (int64_t i = 0; i < all.count; i++) {
+            SnowCrumb c = all.crumb[i];
+            assert_true(c.radius > 0.0f && c.radius <= 0.5f * size);
+            float off = c.p.y - (1.0f + slope * c.p.x); // above the sheet
+            assert_true(off > 0.0f && off < c.radius);
+            inner += fmaxf(fabsf(c.p.x), fabsf(c.p.z)) < half - 1.5f * DEPTH;
+        }
+        assert_true(k == 0 ? inner == 0 : inner > 100);
+        count[k] = all.count;
+        free(all.crumb);
+    }
+    assert_true(count[1] > count[0]);
+    float nothing = 0.0f;
+    double body;
+    SnowCrumbs none = crumbs_on(comb(), with, &(SnowReach){everywhere, &nothing}, &body);
+    assert_int_equal(none.count, 0);
+    free(none.crumb);
+}
+
 // Needles here and there, high up, without bridges: every rim stays near the needles about it.
 static void scattered_needles_bear_no_spikes(void **state)
 {
@@ -390,6 +445,7 @@ int main(void)
         cmocka_unit_test(deeper_snow_has_more_volume),
         cmocka_unit_test(snow_spans_what_it_can_bridge),
         cmocka_unit_test(a_level_sheet_bears_its_depth),
+        cmocka_unit_test(crumbs_lie_beside_pillows),
         cmocka_unit_test(scattered_needles_bear_no_spikes),
         cmocka_unit_test(steep_and_sheltered_boughs_bear_none),
         cmocka_unit_test(layers_above_keep_snow_off),

@@ -831,6 +831,54 @@ static void test_noise_tints_light_that_passes_a_leaf(void **state)
     assert_true(least < 0.6f && most > 0.9f && most <= 1.0f + 1e-5f);
 }
 
+// Snow has no walls, which would be diced to dust, and its bumps are those of its relief; the
+// tracks of a fox are small and deep.
+static void test_snow(void **state)
+{
+    (void)state;
+    const float depth = 0.3f, step = 0.001f;
+    enum { PLACES = 60000 };
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_SNOW;
+    m.pattern_depth = depth;
+    m.displacement = DISPLACEMENT_ON;
+    Material tracked = m;
+    tracked.scars = 1.0f;
+    int prints = 0;
+    float steepest = 0.0f, deepest = 0.0f;
+    double mean = 0.0, off = 0.0, slopes = 0.0;
+    for (int i = 0; i < PLACES; i++) {
+        SurfacePoint p = {.normal = vec3(0, 1, 0), .geometric_normal = vec3(0, 1, 0)};
+        p.smooth_normal = p.facet_normal = p.normal;
+        p.object_position = random_point((uint64_t)i, 9.0f);
+        p.object_position.y = 0.0f;
+        p.footprint = 1e-3f;
+        SurfacePoint beside = p;
+        beside.object_position.x += step;
+        float height = pattern_height(&m, &p), print = pattern_height(&tracked, &p) - height;
+        float slope = (pattern_height(&tracked, &beside) - height - print) / step;
+        steepest = fmaxf(steepest, fabsf(slope));
+        deepest = fminf(deepest, print);
+        prints += print < -0.02f;
+        mean += (double)height / PLACES;
+        p.footprint = beside.footprint = 0.03f; // too large for grains
+        beside.object_position.x = p.object_position.x + 0.25f * p.footprint;
+        Vec3 n = shade_of(&m, &p).normal;
+        slope = (pattern_height(&m, &beside) - pattern_height(&m, &p)) / (0.25f * p.footprint);
+        slopes += (double)fabsf(slope) / PLACES;
+        off += fabs((double)(-n.x / n.y - slope)) / PLACES;
+        assert_true(fabsf(height) < depth);
+    }
+    print_message(
+        "mean %.4f, steepest %.2f, prints %.4f, deepest %.3f, bumps off by %.4f of %.4f\n", mean,
+        (double)steepest, (double)prints / PLACES, (double)deepest, off, slopes);
+    assert_true(fabs(mean) < 0.1 * (double)depth);
+    assert_true(steepest < 8.0f);
+    assert_true(deepest < -0.05f && deepest > -0.11f);
+    assert_true(prints > PLACES / 2000 && prints < PLACES / 100);
+    assert_true(off < 0.2 * slopes);
+}
+
 // Places of level ice where a pixel of this size (m) is seen.
 static SurfacePoint ice_at(int i, float footprint)
 {
@@ -1000,6 +1048,7 @@ int main(void)
         cmocka_unit_test(test_dressed_stone),
         cmocka_unit_test(test_noise_pattern),
         cmocka_unit_test(test_noise_tints_light_that_passes_a_leaf),
+        cmocka_unit_test(test_snow),
         cmocka_unit_test(test_ice),
         cmocka_unit_test(test_ice_is_dull_in_patches),
     };

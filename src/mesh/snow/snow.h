@@ -11,6 +11,7 @@ typedef struct SnowParams {
     float steepest; // degrees from the level: snow slides off what is steeper
     float gaps;     // 0..1: share of the branches that have lost theirs
     float bridging; // m: widest gap between twigs or needles that snow spans
+    float crumbs;   // m: largest crumb on needles outside of pillows; 0 = none
 } SnowParams;
 
 // Which share (0..1) of the snow comes to p.
@@ -36,12 +37,24 @@ typedef struct SnowBearer {
     float area; // m2
 } SnowBearer;
 
+// A crumb of snow on a needle or twig.
+typedef struct SnowCrumb {
+    Vec3 p;       // m, its middle
+    float radius; // m
+} SnowCrumb;
+
+typedef struct SnowCrumbs {
+    SnowCrumb *crumb; // owned
+    int64_t count, capacity;
+} SnowCrumbs;
+
 // Pillows as they are gathered. Initialize to {0}; clear with snow_pile_clear.
 typedef struct SnowPile {
     Vec3 *position; // m
     int64_t vertex_count, vertex_capacity;
     uint32_t *index; // three a face
     int64_t index_count, index_capacity;
+    SnowCrumbs crumbs; // beside them
 } SnowPile;
 
 void snow_pile_clear(SnowPile *pile);
@@ -49,7 +62,8 @@ void snow_pile_clear(SnowPile *pile);
 // Adds the pillows on one bough: closed bodies of triangles that face outward, params->depth deep
 // on wide level places that snow reaches, as thick as half their width on narrow ones, with round
 // rims that overhang a little. Snow settles first on the highest bearers, then on those far below
-// its surface. The bearers are reordered. seed: of lumps and gaps.
+// its surface. The bearers are reordered. seed: of lumps and gaps. With params->crumbs, crumbs lie
+// on the topmost bearers outside.
 bool snow_add_pillows(SnowPile *pile, SnowBearer *bearer, int64_t count, const SnowParams *params,
                       const SnowReach *reach, uint64_t seed, Error *e);
 

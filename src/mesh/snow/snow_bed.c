@@ -36,8 +36,7 @@ static int64_t point_count(const SnowBed *bed)
     return (int64_t)bed->across * bed->along;
 }
 
-// The point nearest to p, which must be a bearer.
-static int64_t entry_of(const SnowBed *bed, Vec3 p)
+int64_t snow_bed_entry(const SnowBed *bed, Vec3 p)
 {
     int x = (int)((p.x - bed->low_x) / bed->cell + 0.5f);
     int z = (int)((p.z - bed->low_z) / bed->cell + 0.5f);
@@ -46,7 +45,7 @@ static int64_t entry_of(const SnowBed *bed, Vec3 p)
 
 bool snow_bed_passes(const SnowBed *bed, Vec3 p)
 {
-    return p.y < bed->highest[entry_of(bed, p)] - SNOW_STEP;
+    return p.y < bed->highest[snow_bed_entry(bed, p)] - SNOW_STEP;
 }
 
 // A grid that leaves room for the overhang and for what bridging does near the border.
@@ -153,7 +152,7 @@ static void gather(SnowBed *bed, const SnowBearer *bearer, int64_t count, int re
         bed->highest[i] = -INFINITY;
     }
     for (int64_t i = 0; i < count; i++) {
-        int64_t at = entry_of(bed, bearer[i].p);
+        int64_t at = snow_bed_entry(bed, bearer[i].p);
         bed->highest[at] = fmaxf(bed->highest[at], bearer[i].p.y);
         area[at] += bearer[i].area;
     }

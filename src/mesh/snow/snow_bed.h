@@ -25,6 +25,9 @@ bool snow_bed_init(SnowBed *bed, const SnowBearer *bearer, int64_t count, const 
                    const SnowReach *reach, uint64_t seed, Error *e);
 void snow_bed_clear(SnowBed *bed);
 
+// The point nearest to p, which must be a bearer.
+int64_t snow_bed_entry(const SnowBed *bed, Vec3 p);
+
 // Whether one of its bearers lies so far below others that the bed is not of it.
 bool snow_bed_passes(const SnowBed *bed, Vec3 p);
 

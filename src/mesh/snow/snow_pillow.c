@@ -7,6 +7,7 @@
 #include "mesh/snow/snow_bed.h"
 
 #include "base/memory.h"
+#include "mesh/snow/snow_crumbs.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,6 +23,7 @@ void snow_pile_clear(SnowPile *pile)
 {
     free(pile->position);
     free(pile->index);
+    free(pile->crumbs.crumb);
 }
 
 // ---- thickness ----
@@ -257,7 +259,10 @@ bool snow_add_pillows(SnowPile *pile, SnowBearer *bearer, int64_t count, const S
         if (!snow_bed_init(&bed, bearer, count, params, &below, seed + (uint64_t)layer, e)) {
             return false;
         }
-        done = add_pillow(pile, &bed, params->depth, e);
+        uint64_t layer_seed = seed + (uint64_t)layer;
+        done = add_pillow(pile, &bed, params->depth, e) &&
+               (params->crumbs <= 0.0f ||
+                snow_add_crumbs(&pile->crumbs, &bed, bearer, count, params, &below, layer_seed, e));
         count = deeper(&bed, bearer, count);
         snow_bed_clear(&bed);
         sheltered.share *= BELOW;

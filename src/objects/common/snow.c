@@ -1,10 +1,16 @@
 #include "objects/common/snow.h"
 
+#include "base/memory.h"
+#include "base/noise.h"
+#include "base/random.h"
+#include "mesh/ball.h"
 #include "objects/common/snow_boughs.h"
 #include "objects/common/snow_fall.h"
 #include "objects/common/snow_spray.h"
 
 #include <stdlib.h>
+
+enum { STREAM_CRUMB_SHAPES = 21 }; // of an object
 
 #define NEEDLED_RADIUS 0.006f // m: thinner branches of plants with sprays are hidden by them
 
@@ -68,13 +74,61 @@ static bool add_snow(Mesh *mesh, const Placing *placing, int role, Error *e)
     return placing_add(placing, (Part){.mesh = mesh}, role, e);
 }
 
+// A lump that is less round than a ball, of radius about 1.
+static Mesh *crumb_mesh(uint64_t seed, Error *e)
+{
+    enum { RINGS = 4 };
+    Mesh *mesh = ball_mesh(RINGS, e);
+    for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
+        Vec3 p = mesh->position[i];
+        float lump = noise_plane(1.7f * p.x + 0.8f * p.y, 1.7f * p.z - 0.8f * p.y, seed);
+        mesh->position[i] = vec3_scale(p, 1.0f + 0.7f * lump);
+    }
+    if (mesh && !mesh_compute_normals(mesh, e)) {
+        mesh_free(mesh);
+        return NULL;
+    }
+    return mesh;
+}
+
+// Adds the crumbs as copies of a few lumps, and frees them.
+static bool add_crumbs(SnowCrumbs *crumbs, const Placing *placing, int role, Error *e)
+{
+    enum { SHAPES = 3 };
+    uint64_t seed = random_key(placing->recipe->seed, STREAM_CRUMB_SHAPES);
+    bool done = true;
+    for (int k = 0; done && k < SHAPES && crumbs->count >= SHAPES; k++) {
+        int64_t most = crumbs->count / SHAPES + 1;
+        Part part = {.instance = memory_alloc(most, sizeof *part.instance, e)};
+        part.mesh = part.instance ? crumb_mesh(random_key(seed, (uint64_t)k), e) : NULL;
+        for (int64_t i = k; part.mesh && i < crumbs->count; i += SHAPES) {
+            uint64_t key = random_key(seed, (uint64_t)(SHAPES + i));
+            float r = crumbs->crumb[i].radius, turn = random_range(key, 0.0f, 360.0f);
+            Vec3 size = {r * random_range(key + 1, 0.8f, 1.7f), r * random_range(key + 2, 0.6f, 1),
+                         r * random_range(key + 3, 0.8f, 1.3f)};
+            part.instance[part.instance_count++] =
+                transform_compose(crumbs->crumb[i].p, vec3(0, turn, 0), size);
+        }
+        done = placing_add(placing, part, role, e);
+    }
+    free(crumbs->crumb);
+    *crumbs = (SnowCrumbs){0};
+    return done;
+}
+
 // *pillows: whether there are any.
 static bool add_on_boughs(const OutTree *tree, const SnowParams *params, const SnowReach *reach,
                           int64_t first, const Placing *placing, int role, bool *pillows, Error *e)
 {
-    Mesh *mesh = snow_on_boughs(tree, params, reach, first, placing, e);
+    SnowCrumbs crumbs = {0};
+    Mesh *mesh = snow_on_boughs(tree, params, reach, first, placing, &crumbs, e);
     *pillows = mesh && mesh->face_count > 0;
-    return add_snow(mesh, placing, role, e);
+    bool done = add_snow(mesh, placing, role, e);
+    if (!done) {
+        free(crumbs.crumb);
+        return false;
+    }
+    return add_crumbs(&crumbs, placing, role, e);
 }
 
 // Twigs among needles lie below pillows, and show no snow of their own.

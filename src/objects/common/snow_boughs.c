@@ -122,7 +122,7 @@ static void bough_snow_clear(BoughSnow *snow)
 }
 
 Mesh *snow_on_boughs(const OutTree *tree, const SnowParams *params, const SnowReach *reach,
-                     int64_t first, const Placing *placing, Error *e)
+                     int64_t first, const Placing *placing, SnowCrumbs *crumbs, Error *e)
 {
     BoughSnow snow = {.params = params,
                       .reach = reach,
@@ -134,6 +134,8 @@ Mesh *snow_on_boughs(const OutTree *tree, const SnowParams *params, const SnowRe
     bool done = snow.of_part && boughs_init(&boughs, tree, e) && sort_sprays(&snow, &boughs, e) &&
                 pile_up(&snow, e);
     Mesh *mesh = done ? snow_pile_mesh(&snow.pile, e) : NULL;
+    *crumbs = snow.pile.crumbs;
+    snow.pile.crumbs = (SnowCrumbs){0};
     boughs_free(&boughs);
     bough_snow_clear(&snow);
     return mesh;

@@ -15,6 +15,10 @@ static const Key SNOW_KEYS[] = {
     {KEY_OF(SnowParams, bridging, "bridging", KEY_FLOAT), .high = 1, .unit = "m",
      .doc = "Widest gap between twigs or needles that the snow spans: 0.15 after calm, moist snow, "
             "0.05 for powder. Pillows on boughs are as thick as half their width, up to depth."},
+    {KEY_OF(SnowParams, crumbs, "crumbs", KEY_FLOAT), .high = 1, .unit = "m",
+     .doc = "Size of the largest crumbs of snow that lie on needles and twigs beside the pillows "
+            "and fray their rims, of plants with sprays: 0.02 to 0.04 where a tree is seen from "
+            "near; 0 = none."},
     {0},
 };
 

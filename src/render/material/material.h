@@ -74,7 +74,8 @@ typedef enum PatternKind {
     PATTERN_DELTA,      // mud flats, reeds, marsh, willows on levees, fields of a river's delta
     PATTERN_SILT,       // its water: mud and clear sea (color), the bed in shoals
     PATTERN_HEATH,      // dry turf of open slopes, bushes, stones, worn tracks of soil (color2)
-    PATTERN_ICE         // dark new ice: patches dulled by haze, grains of rime (color2)
+    PATTERN_ICE,        // dark new ice: patches dulled by haze, grains of rime (color2)
+    PATTERN_SNOW        // hummocks, ripples of the wind, pits and crumbs of fallen clods
 } PatternKind;
 
 // Is relief displaced near the camera?

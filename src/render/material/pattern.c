@@ -132,6 +132,8 @@ float pattern_height(const Material *m, const SurfacePoint *point)
         return pattern_strata_height(m, point);
     case PATTERN_BADLANDS:
         return pattern_badlands_height(m, point);
+    case PATTERN_SNOW:
+        return pattern_snow_height(m, point);
     case PATTERN_NOISE:
         return noise_height(m, point);
     case PATTERN_MOUNTAIN:
@@ -197,6 +199,7 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_SILT] = pattern_silt,
     [PATTERN_HEATH] = pattern_heath,
     [PATTERN_ICE] = pattern_ice,
+    [PATTERN_SNOW] = pattern_snow,
 };
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)

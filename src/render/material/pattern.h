@@ -72,6 +72,8 @@ void pattern_karst(const Material *material, const SurfacePoint *point, PatternS
 void pattern_delta(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_heath(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_ice(const Material *material, const SurfacePoint *point, PatternShade *shade);
+void pattern_snow(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_snow_height(const Material *material, const SurfacePoint *point); // m
 void pattern_silt(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_karst_height(const Material *material, const SurfacePoint *point); // m
 void pattern_glacial(const Material *material, const SurfacePoint *point, PatternShade *shade);

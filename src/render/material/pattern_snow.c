@@ -1,0 +1,151 @@
+// Settled snow: soft hummocks over what lies below, ripples of a wind that has passed in places,
+// pits with crumbs where clods fell from trees, tracks of a fox, grains.
+#include "render/material/pattern.h"
+#include "render/material/pattern_noise.h"
+#include "render/material/pattern_ripples.h"
+
+#include <math.h>
+#include <stddef.h>
+
+// Features relative to the length of the largest hummocks; heights relative to pattern_depth.
+#define RIPPLE_LENGTH 0.14f
+#define RIPPLE_HEIGHT 0.035f
+#define PIT_LENGTH 0.55f // mean distance of what might be a pit
+#define PIT_DEPTH 0.34f
+#define PIT_SHARE 0.3f // of the places
+#define CRUMB_LENGTH 0.04f
+#define CRUMB_HEIGHT 0.14f
+
+// Tracks, m: from one to the next beside it, from print to print, how far they wind.
+#define TRACK_SPACING 11.0f
+#define TRACK_ASIDE 2.2f // of the first, from the origin
+#define STEP 0.37f
+#define WINDING 1.6f
+#define WINDING_LENGTH 7.0f
+
+enum {
+    SEED_HUMMOCKS = 401,
+    SEED_PATCHES = 411,
+    SEED_RIPPLES = 421,
+    SEED_PITS = 431,
+    SEED_CRUMBS = 441,
+    SEED_GRAINS = 451,
+    SEED_TRACKS = 461
+};
+
+static float length_of(const Material *m)
+{
+    return m->pattern_scale > 0.0f ? m->pattern_scale : 1.8f;
+}
+
+// Rounded bodies, higher than their valleys are narrow: snow fills hollows.
+static float hummocks(Vec3 p)
+{
+    float large = noise_solid(p, SEED_HUMMOCKS, NULL);
+    float middle = noise_solid(vec3_scale(p, 2.3f), SEED_HUMMOCKS + 1, NULL);
+    float small = noise_solid(vec3_scale(p, 5.1f), SEED_HUMMOCKS + 2, NULL);
+    return 0.62f * large + 0.24f * middle * (1.0f + large) + 0.06f * small;
+}
+
+// A hole with a raised, uneven rim; *near: 1 about it, where crumbs lie.
+static float pit(Vec3 p, float *near)
+{
+    Vec3 q = vec3_scale(vec3(p.x, 0.0f, p.z), 1.0f / PIT_LENGTH);
+    CellPoint cell = noise_cells_on(q, vec3(0, 1, 0), SEED_PITS);
+    *near = 0.0f;
+    if (noise_unit(cell.cell, 1) > PIT_SHARE) {
+        return 0.0f;
+    }
+    float u = noise_unit(cell.cell, 2), radius = lerpf(0.06f, 0.2f, u * u);
+    float wave = 0.3f * noise_solid(vec3_scale(q, 5.0f), SEED_PITS + 1, NULL);
+    float x = cell.point.x / radius, z = cell.point.z / radius;
+    float away = sqrtf(x * x + z * z) * (1.0f + wave) + wave;
+    float inner = 1.0f - smoothstepf(0.45f, 1.0f, away);
+    float rim = smoothstepf(0.6f, 1.05f, away) * (1.0f - smoothstepf(1.05f, 1.7f, away));
+    float own = smoothstepf(0.0f, 0.12f, cell.border); // ends at the next one's border
+    *near = own * (1.0f - smoothstepf(1.0f, 2.4f, away));
+    return own * radius * 4.0f * (0.3f * rim - inner);
+}
+
+static float crumbs(Vec3 p, float near)
+{
+    if (near <= 0.0f) {
+        return 0.0f;
+    }
+    Vec3 q = vec3_scale(p, 1.0f / CRUMB_LENGTH);
+    CellPoint cell = noise_cells_on(vec3(q.x, 0.0f, q.z), vec3(0, 1, 0), SEED_CRUMBS);
+    float u = noise_unit(cell.cell, 1), radius = 0.5f * u;
+    float square = cell.point.x * cell.point.x + cell.point.z * cell.point.z;
+    float there = smoothstepf(0.0f, 0.15f, 0.6f * near - noise_unit(cell.cell, 2)) *
+                  smoothstepf(0.0f, 0.15f, cell.border);
+    return square < radius * radius ? there * u * (1.0f - square / (radius * radius)) : 0.0f;
+}
+
+// Where track `number` is beside its line at the way `t` along it, m.
+static float track_at(float t, float number)
+{
+    Vec3 p = vec3(t / WINDING_LENGTH, 0.5f, 7.3f * number);
+    return TRACK_SPACING * number + TRACK_ASIDE + WINDING * noise_solid(p, SEED_TRACKS, NULL);
+}
+
+// A fox sets its hind feet into the prints of its fore feet, nearly in one line. m, at p (m);
+// share: of the tracks that there are.
+static float print(Vec3 p, float share)
+{
+    const float turn_c = 0.27f, turn_s = 0.963f; // of the tracks' direction
+    float t = turn_c * p.x + turn_s * p.z, across = turn_s * p.x - turn_c * p.z;
+    float number = floorf((across - TRACK_ASIDE) / TRACK_SPACING + 0.5f),
+          step = floorf(t / STEP + 0.5f);
+    uint32_t hash = noise_square((int)step, (int)number, SEED_TRACKS);
+    if (noise_unit(noise_square(7, (int)number, SEED_TRACKS), 0) >= share) {
+        return 0.0f;
+    }
+    float middle = STEP * (step + 0.16f * (noise_unit(hash, 1) - 0.5f));
+    float side = fmodf(fabsf(step), 2.0f) < 0.5f ? 0.035f : -0.035f;
+    float x = (t - middle) / (0.06f + 0.02f * noise_unit(hash, 2));
+    float z = (across - track_at(middle, number) - side) / 0.042f;
+    float away = sqrtf(x * x + z * z) + 0.4f * noise_solid(vec3_scale(p, 26.0f), SEED_TRACKS, NULL);
+    float inner = 1.0f - smoothstepf(0.5f, 1.1f, away);
+    float rim = smoothstepf(0.8f, 1.2f, away) * (1.0f - smoothstepf(1.2f, 1.7f, away));
+    return 0.006f * rim - lerpf(0.06f, 0.1f, noise_unit(hash, 3)) * inner;
+}
+
+// Height at p (m, of the object), m.
+static float relief_at(const Material *m, const SurfacePoint *point, Vec3 place)
+{
+    float length = length_of(m), near;
+    Vec3 p = vec3_scale(vec3(place.x, 0.0f, place.z), 1.0f / length);
+    float height = hummocks(p);
+    float patch = noise_solid(vec3_scale(p, 0.45f), SEED_PATCHES, NULL);
+    float blown = smoothstepf(-0.15f, 0.35f, patch) *
+                  pattern_detail(RIPPLE_LENGTH * length, point->footprint);
+    if (blown > 0.0f) {
+        SandRelief r = pattern_ripples(p, 0.83f, 0.56f, RIPPLE_LENGTH, SEED_RIPPLES);
+        height += RIPPLE_HEIGHT * blown * r.height;
+    }
+    if (pattern_detail(0.1f * length, point->footprint) > 0.0f) {
+        height += PIT_DEPTH * pit(p, &near);
+        height += CRUMB_HEIGHT * crumbs(p, near) *
+                  pattern_detail(CRUMB_LENGTH * length, point->footprint);
+    }
+    height *= 0.5f * m->pattern_depth;
+    return height + print(place, m->scars) * pattern_detail(0.1f, point->footprint);
+}
+
+float pattern_snow_height(const Material *m, const SurfacePoint *point)
+{
+    return relief_at(m, point, point->object_position);
+}
+
+void pattern_snow(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    PatternOctaves grain = pattern_octaves(point, 0.02f, 4, 0.8f, 1.0f, SEED_GRAINS);
+    shade->color =
+        vec3_lerp(shade->color, m->color2, clampf(0.4f + 0.4f * grain.value, 0.0f, 1.0f));
+    Vec3 slope = vec3_scale(grain.slope, 0.0009f);
+    if (point->displaced < 1.0f && m->pattern_depth > 0.0f) {
+        Vec3 relief = pattern_slope(m, point, relief_at, 0.004f * length_of(m));
+        slope = vec3_madd(slope, 1.0f - point->displaced, relief);
+    }
+    shade->normal = pattern_tilt(shade->normal, slope);
+}
