@@ -133,7 +133,7 @@ static Flight photon_fly(Photon *photon, const Tracer *tracer, uint64_t segment,
     photon->direction = random_direction(random_key(photon->key, 2 * segment + 1));
     Vec3 albedo = clouds_albedo(tracer->clouds, which, scale);
     float most = fmaxf(albedo.x, fmaxf(albedo.y, albedo.z)); // they end by chance and keep
-                                                              // their power
+                                                             // their power
     if (most < 1.0f) {
         bool lives = random_unit(random_key(key, 3)) < most;
         photon->color = vec3_scale(vec3_mul(photon->color, albedo), 1.0f / fmaxf(most, 1e-6f));

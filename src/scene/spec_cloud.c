@@ -5,18 +5,13 @@
 #define BIT(kind) (1u << (kind))
 
 // All that are grown.
-#define GROWN                                                                        \
-    (BIT(CLOUD_CUMULUS) | BIT(CLOUD_STRATUS) | BIT(CLOUD_STORM) | BIT(CLOUD_FOG) | \
-     BIT(CLOUD_PLUME))
+#define GROWN \
+    (BIT(CLOUD_CUMULUS) | BIT(CLOUD_STRATUS) | BIT(CLOUD_STORM) | BIT(CLOUD_FOG) | BIT(CLOUD_PLUME))
 
-static const EnumName KINDS[] = {{"cumulus", CLOUD_CUMULUS},
-                                 {"stratus", CLOUD_STRATUS},
-                                 {"storm", CLOUD_STORM},
-                                 {"fog", CLOUD_FOG},
-                                 {"plume", CLOUD_PLUME},
-                                 {"grid", CLOUD_GRID},
-                                 {"spray", CLOUD_SPRAY},
-                                 {0}};
+static const EnumName KINDS[] = {{"cumulus", CLOUD_CUMULUS}, {"stratus", CLOUD_STRATUS},
+                                 {"storm", CLOUD_STORM},     {"fog", CLOUD_FOG},
+                                 {"plume", CLOUD_PLUME},     {"grid", CLOUD_GRID},
+                                 {"spray", CLOUD_SPRAY},     {0}};
 
 static const EnumName SPRAY_OF[] = {{"mist", SPRAY_MIST}, {"water", SPRAY_WATER}, {0}};
 
@@ -98,7 +93,8 @@ static const Key CLOUD_KEYS[] = {
      .doc = "With over: distance within which the lowest land is the ground of the fog. About "
             "that from the floor of a valley to its crests: less lets the fog climb up the slopes, "
             "more lets valleys of different altitude share one level."},
-    {KEY_OF(Cloud, drift, "drift", KEY_FLOAT), .kinds = BIT(CLOUD_FOG) | BIT(CLOUD_PLUME), .high = 1,
+    {KEY_OF(Cloud, drift, "drift", KEY_FLOAT), .kinds = BIT(CLOUD_FOG) | BIT(CLOUD_PLUME),
+     .high = 1,
      .doc =
          "How far the wind moves the fog: 0 = calm air; 1 = swells and holes are drawn out along "
          "wind to four times their width, and with over the fog banks up before slopes by half "

@@ -88,7 +88,8 @@ static void lava_runs_down_and_parts_on_a_ridge(void **state)
     assert_true(eruption_flow(&strands, &crust, &p, land, 3, NULL));
     int left = 0, right = 0;
     for (int64_t k = 0; k < crust.trail_count; k++) { // along whole branches
-        const TrailPoint *a = &crust.point[crust.first[k]], *b = &crust.point[crust.first[k + 1] - 1];
+        const TrailPoint *a = &crust.point[crust.first[k]],
+                         *b = &crust.point[crust.first[k + 1] - 1];
         assert_true(b->position.y < a->position.y - 80.0f);
         assert_true(b->position.z > (k < 7 ? 450.0f : -350.0f)); // the first runs past the hollow
         left += b->position.x < -100.0f;

@@ -57,8 +57,8 @@ static bool roll(Trails *t, Bomb b, const HeightField *land, uint64_t key, Error
 {
     enum { MOST = 120 };
     const float step = 4.0f, aside = 5.0f, gentle = 0.35f;
-    float reach = 1.0f + (float)MOST * random_unit(random_key(key, 0)) *
-                             random_unit(random_key(key, 1));
+    float reach =
+        1.0f + (float)MOST * random_unit(random_key(key, 0)) * random_unit(random_key(key, 1));
     for (int i = 0; (float)i < reach && b.kelvin > COLD; i++) {
         Vec3 p = b.position;
         float dx = height_field_smooth_at(land, p.x - aside, p.z) -
@@ -74,8 +74,8 @@ static bool roll(Trails *t, Bomb b, const HeightField *land, uint64_t key, Error
         b.position.x += scale * (dx - 0.3f * wander * dz);
         b.position.z += scale * (dz + 0.3f * wander * dx);
         float leap = random_unit(random_key(key, 500 + (uint64_t)i));
-        b.position.y = height_field_smooth_at(land, b.position.x, b.position.z) +
-                       b.radius + 1.5f * leap * leap;
+        b.position.y = height_field_smooth_at(land, b.position.x, b.position.z) + b.radius +
+                       1.5f * leap * leap;
         b.kelvin -= 4.0f;
         if (!trails_add(t, (TrailPoint){b.position, b.radius, b.kelvin, 0.5f}, e)) {
             return false;
@@ -84,8 +84,7 @@ static bool roll(Trails *t, Bomb b, const HeightField *land, uint64_t key, Error
     return true;
 }
 
-static bool fly(Trails *t, const EruptionParams *p, const HeightField *land, uint64_t key,
-                Error *e)
+static bool fly(Trails *t, const EruptionParams *p, const HeightField *land, uint64_t key, Error *e)
 {
     const float dt = 0.25f;
     enum { MOST = 400 };

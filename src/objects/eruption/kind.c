@@ -32,9 +32,9 @@ static void needs(const void *params, Needs *needs)
 
 // Hues of black bodies of about 1,400, 1,250 and 1,100 K; brightness is eruption.radiance.
 static const Material BUILTIN[] = {
-    {.name = "eruption/hot", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.34f, 0.045f}},
-    {.name = "eruption/warm", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.20f, 0.015f}},
-    {.name = "eruption/dull", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.095f, 0.004f}},
+    {.name = "eruption/hot", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.27f, 0.028f}},
+    {.name = "eruption/warm", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.16f, 0.010f}},
+    {.name = "eruption/dull", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.08f, 0.003f}},
     {.name = "eruption/crust",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.035f, 0.032f, 0.030f},
@@ -44,8 +44,10 @@ static const Material BUILTIN[] = {
 
 static const Key MATERIALS[] = {
     MATERIAL_ROW(0, "hot_material", "Material of the hottest lava; default: eruption/hot."),
-    MATERIAL_ROW(1, "warm_material", "Material of lava 120 degrees cooler; default: eruption/warm."),
-    MATERIAL_ROW(2, "dull_material", "Material of lava 260 degrees cooler; default: eruption/dull."),
+    MATERIAL_ROW(1, "warm_material",
+                 "Material of lava 120 degrees cooler; default: eruption/warm."),
+    MATERIAL_ROW(2, "dull_material",
+                 "Material of lava 260 degrees cooler; default: eruption/dull."),
     MATERIAL_ROW(3, "crust_material", "Material of the crust's rubble; default: eruption/crust."),
     {0},
 };

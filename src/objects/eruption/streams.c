@@ -11,12 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float STEP = 5.0f;        // m
-static const float THICK = 2.5f;       // m by which glowing lava stands above the land
-static const float STRAND = 1.3f;      // m from strand to strand
-static const float COOLING = 190.0f;   // K from the source of a branch to its end
-static const float CRUST = 420.0f;     // K by which crust is colder than what it covers
-static const float DARK = 930.0f;      // K, below which it shows no glow
+static const float STEP = 5.0f;      // m
+static const float THICK = 2.5f;     // m by which glowing lava stands above the land
+static const float STRAND = 1.3f;    // m from strand to strand
+static const float COOLING = 190.0f; // K from the source of a branch to its end
+static const float CRUST = 420.0f;   // K by which crust is colder than what it covers
+static const float DARK = 930.0f;    // K, below which it shows no glow
 enum { MOST_STEPS = 2400, MOST_NODES = 4000 };
 
 // The middle of a branch.
@@ -27,13 +27,12 @@ typedef struct Course {
     int count;
 } Course;
 
-// The land with its hollows filled, as lava fills them before it runs on: from each of its samples a
-// way leads down to the rim. The caller frees it.
+// The land with its hollows filled, as lava fills them before it runs on: from each of its samples
+// a way leads down to the rim. The caller frees it.
 static HeightField *filled(const HeightField *land, Error *e)
 {
     const float fall = 0.02f;
-    HeightField *copy =
-        height_field_new(land->columns, land->rows, land->cell, land->origin, e);
+    HeightField *copy = height_field_new(land->columns, land->rows, land->cell, land->origin, e);
     if (!copy) {
         return NULL;
     }
@@ -45,8 +44,8 @@ static HeightField *filled(const HeightField *land, Error *e)
     return copy;
 }
 
-// A lower neighbour of sample i, drawn by its descent: mostly the steepest, at times another, so that
-// branches part where the land hardly prefers one. -1 at the rim.
+// A lower neighbour of sample i, drawn by its descent: mostly the steepest, at times another, so
+// that branches part where the land hardly prefers one. -1 at the rim.
 static int64_t step_down(const HeightField *full, int64_t i, uint64_t key)
 {
     const int columns = full->columns, x = (int)(i % columns), z = (int)(i / columns);
@@ -216,8 +215,8 @@ static bool add_branch(Trails *strands, Trails *crust, const EruptionParams *p, 
     return done;
 }
 
-bool eruption_flow(Trails *strands, Trails *crust, const EruptionParams *p,
-                   const HeightField *land, uint64_t seed, Error *e)
+bool eruption_flow(Trails *strands, Trails *crust, const EruptionParams *p, const HeightField *land,
+                   uint64_t seed, Error *e)
 {
     Course *course = memory_alloc(1, sizeof *course, e);
     HeightField *full = course ? filled(land, e) : NULL;
@@ -229,8 +228,8 @@ bool eruption_flow(Trails *strands, Trails *crust, const EruptionParams *p,
             float share = b == 0 ? 1.0f : random_range(random_key(key, 3), 0.4f, 0.95f);
             float length = share * stream->length;
             run_down(course, stream, full, length, key);
-            done = course->count < 2 || add_branch(strands, crust, p, course, stream->width, length,
-                                                   land, key, e);
+            done = course->count < 2 ||
+                   add_branch(strands, crust, p, course, stream->width, length, land, key, e);
         }
     }
     height_field_free(full);

@@ -53,12 +53,14 @@ static const Key ERUPTION_KEYS[] = {
     {KEY_OF(EruptionParams, bombs, "bombs", KEY_INT), .high = 1000000,
      .doc = "Number of glowing bombs that fly while the picture is exposed."},
     {KEY_OF(EruptionParams, speed, "speed", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
-     .unit = "m/s", .doc = "Speed at which the fastest leave the vent; most are slower. 110 throws them "
-                           "500 m high."},
+     .unit = "m/s",
+     .doc = "Speed at which the fastest leave the vent; most are slower. 110 throws them "
+            "500 m high."},
     {KEY_OF(EruptionParams, spread, "spread", KEY_FLOAT), .high = 60, .unit = "degrees",
      .doc = "Standard deviation of their directions from the vertical."},
     {KEY_OF(EruptionParams, shutter, "shutter", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1000,
-     .unit = "s", .doc = "Exposure of the picture: bombs draw streaks as long as they fly in this time."},
+     .unit = "s",
+     .doc = "Exposure of the picture: bombs draw streaks as long as they fly in this time."},
     {KEY_OF(EruptionParams, size, "size", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100, .unit = "m",
      .doc = "Width of the largest streaks."},
     {KEY_OF(EruptionParams, temperature, "temperature", KEY_FLOAT), .low = 800, .high = 1300,

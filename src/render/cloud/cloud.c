@@ -50,7 +50,8 @@ Cloud cloud_default(CloudKind kind)
                        .drift = 0.4f,
                        .resolution = 512};
     case CLOUD_GRID:
-        return (Cloud){.kind = kind, .albedo = {1.0f, 1.0f, 1.0f}, .extinction = 0.05f, .scale = 1.0f};
+        return (Cloud){
+            .kind = kind, .albedo = {1.0f, 1.0f, 1.0f}, .extinction = 0.05f, .scale = 1.0f};
     case CLOUD_SPRAY:
         return (Cloud){.kind = kind, .albedo = {1.0f, 1.0f, 1.0f}, .extinction = 0.2f};
     case CLOUD_CUMULUS:

@@ -202,8 +202,8 @@ static float estimate_depths(const CloudSet *clouds, const CloudRay *ray, float 
 {
     float depth = 0.0f;
     for (int i = 0; i < clouds->count && depth < most; i++) {
-        depth += estimate_depth(&clouds->grid[i], ray, scale_in(clouds, i, scale), most - depth,
-                                key);
+        depth +=
+            estimate_depth(&clouds->grid[i], ray, scale_in(clouds, i, scale), most - depth, key);
     }
     return depth;
 }

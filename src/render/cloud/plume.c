@@ -39,8 +39,7 @@ float plume_billow(const Cloud *cloud)
 float plume_share(const Cloud *cloud, Vec3 p)
 {
     float wind = cloud->wind * RADIANS_PER_DEGREE, radius;
-    float away =
-        (p.x - cloud->center_x) * sinf(wind) + (p.z - cloud->center_z) * cosf(wind);
+    float away = (p.x - cloud->center_x) * sinf(wind) + (p.z - cloud->center_z) * cosf(wind);
     float t = clampf((p.y - cloud->base) / cloud->thickness, 0.0f, 1.0f);
     plume_axis(cloud, t, &radius);
     float past = away / fmaxf(BEND * cloud->drift * cloud->thickness, 0.1f * cloud->thickness);
