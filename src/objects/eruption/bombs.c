@@ -5,9 +5,9 @@
 #include "objects/eruption/eruption.h"
 
 static const float GRAVITY = 9.81f;
-static const float DRAG = 0.0012f;  // 1/m: of blocks of about half a metre
-static const float COOLING = 16.0f; // K/s: of their surface
-static const float COLD = 880.0f;   // K: glows no more
+static const float DRAG = 0.0012f; // 1/m: of blocks of about half a metre
+static const float COOLING = 9.0f; // K/s: of their surface
+static const float COLD = 1080.0f; // K: glows too little for a picture
 
 typedef struct Bomb {
     Vec3 position, velocity;
@@ -47,7 +47,7 @@ static void move(Bomb *b, float dt)
 
 static TrailPoint seen(const Bomb *b)
 {
-    const float slow = 25.0f; // m/s at which the picture shows it as bright as what rests
+    const float slow = 70.0f; // m/s at which the picture shows it as bright as what rests
     float shown = slow / (slow + vec3_length(b->velocity));
     return (TrailPoint){b->position, b->radius, b->kelvin, shown};
 }

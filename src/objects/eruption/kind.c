@@ -32,9 +32,9 @@ static void needs(const void *params, Needs *needs)
 
 // Hues of black bodies of about 1,400, 1,250 and 1,100 K; brightness is eruption.radiance.
 static const Material BUILTIN[] = {
-    {.name = "eruption/hot", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.27f, 0.028f}},
-    {.name = "eruption/warm", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.16f, 0.010f}},
-    {.name = "eruption/dull", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.08f, 0.003f}},
+    {.name = "eruption/hot", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.22f, 0.018f}},
+    {.name = "eruption/warm", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.13f, 0.007f}},
+    {.name = "eruption/dull", .kind = MATERIAL_EMISSION, .radiance = {1.0f, 0.065f, 0.002f}},
     {.name = "eruption/crust",
      .kind = MATERIAL_DIFFUSE,
      .color = {0.035f, 0.032f, 0.030f},
