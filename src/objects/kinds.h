@@ -30,7 +30,8 @@
     X(sea)          \
     X(snow_crystal) \
     X(frost_flower) \
-    X(ice_cracks)
+    X(ice_cracks)   \
+    X(eruption)
 
 #define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
 KINDS(DECLARE_KIND)

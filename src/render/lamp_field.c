@@ -112,7 +112,8 @@ static Flight photon_fly(Photon *photon, const Tracer *tracer, uint64_t segment,
 {
     CloudRay way = {photon->origin, photon->direction, INFINITY, true};
     float scale = cloud_even_extinction(&tracer->droplets);
-    float droplet = clouds_collide(tracer->clouds, &way, scale, &photon->key);
+    int which;
+    float droplet = clouds_collide_with(tracer->clouds, &way, scale, &photon->key, &which);
     uint64_t key = random_key(photon->key, ~segment);
     float t = meet_medium(photon, tracer, droplet, random_unit(random_key(key, 2)));
     Ray ray = {.origin = photon->origin,
@@ -130,6 +131,14 @@ static Flight photon_fly(Photon *photon, const Tracer *tracer, uint64_t segment,
         return scatter_in_medium(photon, &tracer->outside, key);
     }
     photon->direction = random_direction(random_key(photon->key, 2 * segment + 1));
+    Vec3 albedo = clouds_albedo(tracer->clouds, which, scale);
+    float most = fmaxf(albedo.x, fmaxf(albedo.y, albedo.z)); // they end by chance and keep
+                                                             // their power
+    if (most < 1.0f) {
+        bool lives = random_unit(random_key(key, 3)) < most;
+        photon->color = vec3_scale(vec3_mul(photon->color, albedo), 1.0f / fmaxf(most, 1e-6f));
+        return lives ? FLIGHT_DROPLET : FLIGHT_ENDED;
+    }
     return FLIGHT_DROPLET;
 }
 

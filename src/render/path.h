@@ -43,6 +43,7 @@ typedef struct Path {
     struct ShadowQueue *shadows;
     CloudGuide *guide;
     uint64_t cloud_key; // state of the random numbers that track through clouds
+    int cloud;          // the number of the one that the path met last
     int64_t rays;
     Sampler sampler;
     uint32_t key; // of the next ray

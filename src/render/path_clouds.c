@@ -3,7 +3,8 @@
 // The first scattering events are nature's. With each, the phase function widens and the extinction
 // shrinks, so that extinction x (1 - mean cosine) stays (similarity: Zhao, Ramamoorthi and Bala,
 // "High-Order Similarity Relations in Radiative Transfer", SIGGRAPH 2014): what forward scattering
-// no longer changes is not traced. Droplets absorb nothing of visible light.
+// no longer changes is not traced. Droplets absorb nothing of visible light; ash does
+// (clouds_albedo).
 #include "render/path.h"
 
 #include "base/random.h"
@@ -127,8 +128,8 @@ float path_meet_cloud(Path *path, float far)
         return INFINITY;
     }
     CloudRay part = {path->ray.origin, path->ray.direction, far, path->cloud_order >= ORDERS};
-    float t = clouds_collide(clouds, &part, extinction_scale(path->tracer, path->cloud_order),
-                             &path->cloud_key);
+    float t = clouds_collide_with(clouds, &part, extinction_scale(path->tracer, path->cloud_order),
+                                  &path->cloud_key, &path->cloud);
     if (path->straight && far == INFINITY) { // else path_note_behind has
         note_cloud(path);
     }
@@ -176,6 +177,22 @@ static void add_lamps(Path *path, Vec3 point)
     path->near = 0.0f;
 }
 
+// Takes what the particle absorbs. Where it is much, roulette ends the path; false then.
+static bool survives(Path *path)
+{
+    const Tracer *tracer = path->tracer;
+    float scale = extinction_scale(tracer, path->cloud_order);
+    Vec3 albedo = clouds_albedo(tracer->clouds, path->cloud, scale);
+    float most = fmaxf(albedo.x, fmaxf(albedo.y, albedo.z));
+    if (most >= 1.0f) {
+        return true;
+    }
+    path->cloud_key += 0x9e3779b97f4a7c15ull;
+    bool lives = random_unit(path->cloud_key) < most;
+    path->throughput = vec3_mul(path->throughput, vec3_scale(albedo, lives ? 1.0f / most : 0.0f));
+    return lives;
+}
+
 // Roulette would not do: without absorption light lasts for hundreds of scatterings, over which the
 // weight of what survives grows without bound.
 static bool goes_on(const Path *path)
@@ -190,6 +207,9 @@ Travel path_scatter_in_cloud(Path *path, float t)
     path_see_through_rain(path, t);
     path_see_through_air(path, t, tracer->cloud_haze);
     if (!path->in_cloud && path->depth++ >= tracer->world->render.max_depth) {
+        return TRAVEL_ENDED;
+    }
+    if (!survives(path)) {
         return TRAVEL_ENDED;
     }
     path->in_cloud = true;

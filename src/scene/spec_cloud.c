@@ -5,15 +5,13 @@
 #define BIT(kind) (1u << (kind))
 
 // All that are grown.
-#define GROWN (BIT(CLOUD_CUMULUS) | BIT(CLOUD_STRATUS) | BIT(CLOUD_STORM) | BIT(CLOUD_FOG))
+#define GROWN \
+    (BIT(CLOUD_CUMULUS) | BIT(CLOUD_STRATUS) | BIT(CLOUD_STORM) | BIT(CLOUD_FOG) | BIT(CLOUD_PLUME))
 
-static const EnumName KINDS[] = {{"cumulus", CLOUD_CUMULUS},
-                                 {"stratus", CLOUD_STRATUS},
-                                 {"storm", CLOUD_STORM},
-                                 {"fog", CLOUD_FOG},
-                                 {"grid", CLOUD_GRID},
-                                 {"spray", CLOUD_SPRAY},
-                                 {0}};
+static const EnumName KINDS[] = {{"cumulus", CLOUD_CUMULUS}, {"stratus", CLOUD_STRATUS},
+                                 {"storm", CLOUD_STORM},     {"fog", CLOUD_FOG},
+                                 {"plume", CLOUD_PLUME},     {"grid", CLOUD_GRID},
+                                 {"spray", CLOUD_SPRAY},     {0}};
 
 static const EnumName SPRAY_OF[] = {{"mist", SPRAY_MIST}, {"water", SPRAY_WATER}, {0}};
 
@@ -23,6 +21,8 @@ static const Key CLOUD_KEYS[] = {
             "sheet, closed or torn; "
             "storm: one cumulonimbus, whose anvil the wind draws out; fog: fills the air from its "
             "base, densest there, up to a wavy top with wisps, out of which higher land stands; "
+            "plume: ash that an eruption throws up, a column that widens as it rises, bends with "
+            "the wind and is thinned out; "
             "grid: the "
             "voxels of an OpenVDB file; spray: what waterfalls and surf at cliffs and reefs throw "
             "up."},
@@ -51,13 +51,16 @@ static const Key CLOUD_KEYS[] = {
      .high = 20000, .unit = "m",
      .doc = "Width of the large heaps, which many smaller ones surround; of the rolls of a sheet "
             "or fog; of the storm below its anvil, which is about 4.3 times as long and 3 times as "
-            "wide."},
+            "wide; of a plume where it leaves the vent."},
     {KEY_OF(Cloud, extinction, "extinction", KEY_FLOAT), .high = 1, .unit = "1/m",
      .doc = "Extinction where droplets are dense, from a quarter of the thickness up, or at the "
             "base of fog, where a grid is 1, or where spray leaves the foot of a fall: 0.05 = one "
             "sees 60 m far in it; 0.003 for veils of ice. A storm's anvil has 0.03 to 0.25 of it."},
-    {KEY_OF(Cloud, softness, "softness", KEY_FLOAT), .kinds = BIT(CLOUD_CUMULUS) | BIT(CLOUD_STORM),
-     .high = 1,
+    {KEY_OF(Cloud, albedo, "albedo", KEY_COLOR), .low = 0, .high = 1,
+     .doc = "Share of the light that meets a particle which it scatters; it absorbs the rest. 1 = "
+            "drops of water or ice; 0.9 = grey ash, 0.8 = black smoke."},
+    {KEY_OF(Cloud, softness, "softness", KEY_FLOAT),
+     .kinds = BIT(CLOUD_CUMULUS) | BIT(CLOUD_STORM) | BIT(CLOUD_PLUME), .high = 1,
      .doc = "How far dry air has worn the borders: more with age, down the flanks, and of small "
             "heaps. 0 = firm as a cauliflower wherever air rises; 0.5 = firm at young tops, torn "
             "below; 1 = wisps all over but at the youngest tops."},
@@ -65,8 +68,9 @@ static const Key CLOUD_KEYS[] = {
      .unit = "degrees",
      .doc = "Azimuth the wind blows toward, from +Z toward +X: heaps and anvils are longer along "
             "it."},
-    {KEY_OF(Cloud, center_x, "center", KEY_VECTOR), .count = 2, .kinds = BIT(CLOUD_STORM),
-     .low = -1e6, .high = 1e6, .unit = "m", .doc = "Position x, z of the storm's main tower."},
+    {KEY_OF(Cloud, center_x, "center", KEY_VECTOR), .count = 2,
+     .kinds = BIT(CLOUD_STORM) | BIT(CLOUD_PLUME), .low = -1e6, .high = 1e6, .unit = "m",
+     .doc = "Position x, z of the storm's main tower, or of the vent."},
     {KEY_OF(Cloud, shelf, "shelf", KEY_FLOAT), .kinds = BIT(CLOUD_STORM), .high = 2,
      .doc = "Shelf cloud: how far tiers of low cloud overhang the land ahead of the storm, where "
             "the wind blows to, in shares of its size; 0 = none."},
@@ -89,11 +93,13 @@ static const Key CLOUD_KEYS[] = {
      .doc = "With over: distance within which the lowest land is the ground of the fog. About "
             "that from the floor of a valley to its crests: less lets the fog climb up the slopes, "
             "more lets valleys of different altitude share one level."},
-    {KEY_OF(Cloud, drift, "drift", KEY_FLOAT), .kinds = BIT(CLOUD_FOG), .high = 1,
+    {KEY_OF(Cloud, drift, "drift", KEY_FLOAT), .kinds = BIT(CLOUD_FOG) | BIT(CLOUD_PLUME),
+     .high = 1,
      .doc =
          "How far the wind moves the fog: 0 = calm air; 1 = swells and holes are drawn out along "
          "wind to four times their width, and with over the fog banks up before slopes by half "
-         "its thickness and thins behind them."},
+         "its thickness and thins behind them. Of a plume how far it bends: 0 = upright, 1 = it "
+         "drifts as far as it rises well below its top."},
     {KEY_OF(Cloud, seed, "seed", KEY_INT), .kinds = GROWN, .high = 1e9,
      .doc = "Changes the form of these clouds alone."},
     {KEY_OF(Cloud, resolution, "resolution", KEY_INT), .kinds = GROWN, .low = 64, .high = 1024,

@@ -57,6 +57,7 @@ SMALL = {
                 "leaves": {"max_count": 60}, "hanging": {"count": 3}},
     "snow_crystal": {"cells": 12}, "frost_flower": {"feathers": 5, "barbs": 6},
     "ice_cracks": {"size": 2, "grain": 0.03},
+    "eruption": {"on": "cone", "bombs": 5},
     "scatter": {"count": 12, "radius": 4, "variants": 2},
 }
 # What grows in a fraction of a second on every place of a scatter.
@@ -184,6 +185,8 @@ def draw_scene(schema, seed):
         kind = draw.choice(sorted(SMALL))
         if kind == "climber" and not any(one["name"] == "wall" for one in scene["objects"]):
             scene["objects"].append({"name": "wall", "shape": {"envelope": [{"shape": "sphere", "size": 0.5}]}})
+        if kind == "eruption" and not any(one["name"] == "cone" for one in scene["objects"]):
+            scene["objects"].append({"name": "cone", "terrain": {"form": "volcano", "resolution": 32}})
         one = {"name": f"o{i}", kind: draw_body(drawer, schema, kind)}
         for key in schema["$defs"]["object"]["properties"]:
             if names and key.endswith("material") and draw.random() < (0.7 if key == "material" else 0.1):

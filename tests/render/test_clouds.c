@@ -305,12 +305,13 @@ static void no_cell_is_thinner_or_denser_than_its_bounds(void **state)
     const DetailNoise *detail = ((const Grown *)*state)->detail;
     static float height[FLOOR_SIDE * FLOOR_SIDE];
     CloudFloor floor = hilly_floor(height);
-    for (int i = CLOUD_CUMULUS; i <= CLOUD_FOG + 2; i++) {
+    for (int i = CLOUD_CUMULUS; i <= CLOUD_FOG + 3; i++) {
         Cloud cloud = cloud_default(i <= CLOUD_FOG ? (CloudKind)i : CLOUD_CUMULUS);
         cloud.softness = i == CLOUD_CUMULUS ? 0.0f : (i == CLOUD_FOG + 1 ? 1.0f : cloud.softness);
         cloud.shelf = i == CLOUD_STORM ? 0.6f : 0.0f;
         cloud = i == CLOUD_FOG + 2 ? pooled_fog(&floor) : cloud;
-        cloud.resolution = i > CLOUD_STRATUS && i <= CLOUD_FOG ? MEDIUM : cloud.resolution;
+        cloud = i == CLOUD_FOG + 3 ? cloud_default(CLOUD_PLUME) : cloud;
+        cloud.resolution = i > CLOUD_STRATUS && i != CLOUD_FOG + 1 ? MEDIUM : cloud.resolution;
         CloudGrid grid = {0};
         assert_true(cloud_grid_new(&grid, &cloud, detail, 6, &run, &e));
         int met = 0;

@@ -206,7 +206,7 @@ static void emission_has_the_flux_of_the_lights(void **state)
 }
 
 // A lamp in a sheet of cloud, seen from below. curve: a glowing line in coloured haze instead of
-// the ball.
+// the ball, in a sheet of ash.
 static World *lit_sheet(int samples, bool field, bool curve)
 {
     World *world = tiny_world(12, 8, samples, 0.5f);
@@ -221,6 +221,7 @@ static World *lit_sheet(int samples, bool field, bool curve)
     sheet.resolution = 128;
     add_cloud(world, sheet);
     if (curve) {
+        world->cloud[0].albedo = vec3(0.98f, 0.96f, 0.93f);
         CurveSet *curves = curves_new(5, 1, NULL);
         assert_non_null(curves);
         for (int i = 0; i < 5; i++) {

@@ -76,13 +76,13 @@ static const Case scenes[] = {
      "volume's values, or the inside of a level set."},
     {TREE "clouds: [{kind: grid, file: c.vdb, cover: 1}]\n",
      ":2:36: key 'cover' does not apply to clouds.0 of kind 'grid'; known: kind, file, grid, "
-     "position, rotation, scale, extinction"},
+     "position, rotation, scale, extinction, albedo"},
     {TREE "clouds: [{kind: stratus, softness: 1}]\n",
      ":2:26: key 'softness' does not apply to clouds.0 of kind 'stratus'; known: kind, base, "
-     "thickness, cover, size, extinction, wind, seed, resolution"},
+     "thickness, cover, size, extinction, albedo, wind, seed, resolution"},
     {TREE "clouds: [{kind: cumulus, shelf: 1}]\n",
      ":2:26: key 'shelf' does not apply to clouds.0 of kind 'cumulus'; known: kind, base, "
-     "thickness, cover, size, extinction, softness, wind, seed, resolution"},
+     "thickness, cover, size, extinction, albedo, softness, wind, seed, resolution"},
     {TREE "clouds: [{kind: fog, over: b}]\n",
      ":2:28: clouds.0.over: there is no object 'b'; did you mean 'a'?"},
     {TREE "clouds: [{kind: fog, over: a}]\n",

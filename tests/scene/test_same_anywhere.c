@@ -412,6 +412,9 @@ static const struct {
      ALL},
     {"sea: {spokes: 32, extent: 30}", 0},                            // waves lie in the scene
     {"scatter: {count: 20, things: [{stone: {resolution: 4}}]}", 0}, // patches lie in the scene
+    {"eruption: {on: cone, bombs: 4, streams: [{at: [300, 0], length: 100}]}\n  - name: cone\n"
+     "    terrain: {form: volcano, size: 9000, relief: 900, resolution: 64}",
+     0}, // it lies on its terrain
     {"row: {points: [{at: [0, 0, 0]}, {at: [3, 0, 1]}], things: [{stone: {resolution: 4}}]}",
      0},               // its line lies in the scene
     {"ground: {}", 0}, // it stands about the origin, and its bumps are as large as nature's

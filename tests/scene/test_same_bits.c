@@ -61,6 +61,9 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
          0xf298471cb98de047},
         {"frost_flower: {feathers: 8, barbs: 10}", 0x83a50496024e9247},
         {"ice_cracks: {size: 2, grain: 0.02}", 0x36c64a4a3eb79f0f},
+        {"eruption: {on: cone, bombs: 20, streams: [{at: [300, 0], length: 400}]}\n  - name: cone\n"
+         "    terrain: {form: volcano, size: 9000, relief: 900, resolution: 64}",
+         0xf2f9860a295d73b2},
         {"lightning: {height: 10, bolts: 2}", 0xbd6a57f0057ab6b6},
         {"lightning: {points: {place: surface}, envelope: [{shape: sphere, size: 1}]}",
          0xf74b02699ab982c4},

@@ -4,12 +4,14 @@
 
 // Extinctions: a liquid water content of 0.2 to 0.5 g/m^3 in droplets of 8 to 10 um (Pruppacher and
 // Klett 1997, ch. 2). Fog: 0.1 g/m^3, in which one sees 100 m far. Spray: 10 g/m^3 in
-// drops of 150 um.
+// drops of 150 um. Ash: some g/m^3 of grains of 20 um of glass and dark minerals, which absorb
+// a tenth of what meets them, blue more than red.
 Cloud cloud_default(CloudKind kind)
 {
     switch (kind) {
     case CLOUD_STRATUS:
         return (Cloud){.kind = kind,
+                       .albedo = {1.0f, 1.0f, 1.0f},
                        .base = 1500.0f,
                        .thickness = 400.0f,
                        .cover = 0.7f,
@@ -18,6 +20,7 @@ Cloud cloud_default(CloudKind kind)
                        .resolution = 512};
     case CLOUD_STORM:
         return (Cloud){.kind = kind,
+                       .albedo = {1.0f, 1.0f, 1.0f},
                        .base = 1000.0f,
                        .thickness = 10500.0f,
                        .cover = 1.0f,
@@ -27,6 +30,7 @@ Cloud cloud_default(CloudKind kind)
                        .resolution = 512};
     case CLOUD_FOG:
         return (Cloud){.kind = kind,
+                       .albedo = {1.0f, 1.0f, 1.0f},
                        .base = -100.0f,
                        .thickness = 200.0f,
                        .cover = 1.0f,
@@ -34,14 +38,27 @@ Cloud cloud_default(CloudKind kind)
                        .extinction = 0.03f,
                        .pool = 500.0f,
                        .resolution = 512};
+    case CLOUD_PLUME:
+        return (Cloud){.kind = kind,
+                       .albedo = {0.94f, 0.92f, 0.895f},
+                       .base = 0.0f,
+                       .thickness = 3000.0f,
+                       .cover = 1.0f,
+                       .size = 200.0f,
+                       .extinction = 0.08f,
+                       .softness = 0.25f,
+                       .drift = 0.4f,
+                       .resolution = 512};
     case CLOUD_GRID:
-        return (Cloud){.kind = kind, .extinction = 0.05f, .scale = 1.0f};
+        return (Cloud){
+            .kind = kind, .albedo = {1.0f, 1.0f, 1.0f}, .extinction = 0.05f, .scale = 1.0f};
     case CLOUD_SPRAY:
-        return (Cloud){.kind = kind, .extinction = 0.2f};
+        return (Cloud){.kind = kind, .albedo = {1.0f, 1.0f, 1.0f}, .extinction = 0.2f};
     case CLOUD_CUMULUS:
         break;
     }
     return (Cloud){.kind = CLOUD_CUMULUS,
+                   .albedo = {1.0f, 1.0f, 1.0f},
                    .base = 1200.0f,
                    .thickness = 1100.0f,
                    .cover = 0.3f,

@@ -1,5 +1,5 @@
-// The description of clouds: heaps, sheets, storms, fog and spray of droplets that light passes
-// through.
+// The description of clouds: heaps, sheets, storms, fog and spray of droplets, and plumes of ash,
+// that light passes through.
 #ifndef RAMIFY_RENDER_CLOUD_CLOUD_H
 #define RAMIFY_RENDER_CLOUD_CLOUD_H
 
@@ -13,6 +13,7 @@ typedef enum CloudKind {
     CLOUD_STRATUS, // a sheet, closed or torn
     CLOUD_STORM,   // one cumulonimbus with its anvil
     CLOUD_FOG,     // fills the air from its base up to a wavy top; dense below
+    CLOUD_PLUME,   // ash that rises from a vent; bends with the wind
     CLOUD_GRID,    // a file's voxels
     CLOUD_SPRAY    // what falls and breakers throw up
 } CloudKind;
@@ -39,15 +40,16 @@ typedef struct Cloud {
     float cover;      // share of the sky, 0..1; not CLOUD_STORM
     float size;       // m: width of large heaps, of rolls of a sheet or fog, of a storm's towers
     float extinction; // 1/m, where droplets are dense
+    Vec3 albedo;      // share of the light that one particle scatters; it absorbs the rest
     float softness;   // 0..1: how far dry air has worn the borders; heaps and storms
     float wind;       // degrees from +Z toward +X: where the wind blows
-    float center_x, center_z; // m; CLOUD_STORM
+    float center_x, center_z; // m; CLOUD_STORM, CLOUD_PLUME
     float shelf;              // CLOUD_STORM: how far one overhangs, in shares of the size; 0 = none
     const char *over;    // CLOUD_FOG: terrain whose low ground it lies on; CLOUD_SPRAY: object that
                          // throws it up; NULL = none; borrowed
     SprayOf of;          // CLOUD_SPRAY
     float pool;          // m: with over, radius within which the lowest land is its ground
-    float drift;         // CLOUD_FOG, 0..1: how far the wind has drawn it out
+    float drift;         // CLOUD_FOG, 0..1: how far the wind has drawn it out; CLOUD_PLUME: bent it
     SprayParcels *spray; // CLOUD_SPRAY: owned; NULL = not known yet
     CloudFloor *floor;   // with over: the level that it lies on; NULL = not known yet
     int seed;            // of these clouds beside the scene's

@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "render/cloud/anvil.h"
 #include "render/cloud/heaps.h"
+#include "render/cloud/plume.h"
 #include "render/cloud/profile.h"
 #include "render/cloud/storm.h"
 
@@ -99,6 +100,33 @@ static void add_anvil(CloudGrid *g, const Cloud *cloud, uint64_t key, const Run 
     }
 }
 
+// The ash of a plume is the thinner the more air it has taken in.
+static void thin_plume(CloudGrid *g, const Cloud *cloud, const Run *run)
+{
+#pragma omp parallel for schedule(static) num_threads(run->threads)
+    for (int z = 0; z < g->count[2]; z++) {
+        for (int x = 0; x < g->count[0]; x++) {
+            int64_t first = cloud_grid_node(g, x, 0, z);
+            for (int y = 0; y < g->count[1]; y++) {
+                Vec3 p = vec3_madd(g->low, g->voxel, vec3((float)x, (float)y, (float)z));
+                g->ice[first + y] = (uint8_t)lrintf(plume_share(cloud, p) * ICE_STEPS);
+            }
+        }
+    }
+}
+
+static bool grow_balls(Puffs *puffs, const CloudGrid *g, const Cloud *cloud, uint64_t key, Error *e)
+{
+    switch (cloud->kind) {
+    case CLOUD_STORM:
+        return storm_grow(puffs, cloud, key, e);
+    case CLOUD_PLUME:
+        return plume_grow(puffs, cloud, key, e);
+    default:
+        return heaps_grow(puffs, cloud, g->voxel * (float)g->count[0], key, e);
+    }
+}
+
 // Softer and firmer patches: eddies bring dry air to some places of a border and not to others.
 static void add_patches(CloudGrid *g, const Cloud *cloud, const Run *run)
 {
@@ -127,13 +155,13 @@ static bool fill_with_heaps(CloudGrid *g, const Cloud *cloud, uint64_t key, cons
                             Error *e)
 {
     Puffs puffs = {.floor = cloud->base, .smallest = 0.8f * g->voxel};
-    bool done = cloud->kind == CLOUD_STORM
-                    ? storm_grow(&puffs, cloud, key, e)
-                    : heaps_grow(&puffs, cloud, g->voxel * (float)g->count[0], key, e);
+    bool done = grow_balls(&puffs, g, cloud, key, e);
     if (done) {
         fill_with_puffs(g, &puffs, run);
         if (cloud->kind == CLOUD_STORM) {
             add_anvil(g, cloud, random_key(key, 0xa11), run);
+        } else if (cloud->kind == CLOUD_PLUME) {
+            thin_plume(g, cloud, run);
         }
         add_patches(g, cloud, run);
     }

@@ -4,6 +4,7 @@
 #include "render/cloud/cloud_bounds.h"
 #include "render/cloud/cloud_fill.h"
 #include "render/cloud/cloud_voxels.h"
+#include "render/cloud/plume.h"
 #include "render/cloud/profile.h"
 #include "shape/sparse_volume.h"
 
@@ -39,10 +40,30 @@ static void lay_out_on_floor(CloudGrid *g, const Cloud *cloud, float margin)
     g->count[1] = up_to_cells(tall / g->voxel);
 }
 
+// One cloud at its place, whose density varies by more than height (CloudGrid.ice).
+static bool stands_alone(const Cloud *cloud)
+{
+    return cloud->kind == CLOUD_STORM || cloud->kind == CLOUD_PLUME;
+}
+
+static void lay_out_plume(CloudGrid *g, const Cloud *cloud, float margin)
+{
+    Aabb box = plume_box(cloud);
+    Vec3 size = vec3_sub(box.high, box.low);
+    g->repeats = false;
+    g->fog = true; // densest at the vent
+    g->count[0] = g->count[2] = nodes_across(cloud);
+    g->voxel = (fmaxf(size.x, size.z) + 2.0f * margin) / (float)g->count[0];
+    float across = g->voxel * (float)g->count[0];
+    g->low = vec3(0.5f * (box.low.x + box.high.x - across), cloud->base - margin,
+                  0.5f * (box.low.z + box.high.z - across));
+    g->count[1] = up_to_cells((size.y + 2.0f * margin) / g->voxel);
+}
+
 static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
 {
     float across = clampf(16.0f * cloud->size, 2000.0f, 40000.0f);
-    g->repeats = cloud->kind != CLOUD_STORM;
+    g->repeats = !stands_alone(cloud);
     g->fog = cloud->kind == CLOUD_FOG;
     if (!g->repeats) {
         across = 7.0f * cloud->size;
@@ -61,6 +82,7 @@ static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
 static Roughness roughness_of(const Cloud *cloud)
 {
     float size = cloud->kind == CLOUD_STORM ? 0.5f * cloud->size : cloud->size;
+    size = cloud->kind == CLOUD_PLUME ? plume_billow(cloud) : size;
     float torn = fminf(2.0f * cloud->softness, 1.0f);
     Roughness r = {.period = {0.62f * size, 0.097f * size},
                    .billow = {0.05f * size, 0.011f * size},
@@ -79,6 +101,9 @@ static Roughness roughness_of(const Cloud *cloud)
         r.edge[0] = 0.02f * size;
         r.base = 0.0f;
     }
+    if (cloud->kind == CLOUD_PLUME) { // begins at the vent, without a level base
+        r.base = 0.0f;
+    }
     return r;
 }
 
@@ -93,6 +118,8 @@ static void describe(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail
     g->pooled = false;
     if (cloud->floor) {
         lay_out_on_floor(g, cloud, reach_at(&g->rough, 1.0f));
+    } else if (cloud->kind == CLOUD_PLUME) {
+        lay_out_plume(g, cloud, reach_at(&g->rough, 1.0f));
     } else {
         lay_out(g, cloud, reach_at(&g->rough, 1.0f));
     }
@@ -115,7 +142,7 @@ int64_t cloud_grid_bytes(const Cloud *cloud)
     }
     CloudGrid grid;
     describe(&grid, cloud, NULL);
-    int64_t ice = cloud->kind == CLOUD_STORM ? (int64_t)sizeof *grid.ice : 0;
+    int64_t ice = stands_alone(cloud) ? (int64_t)sizeof *grid.ice : 0;
     return node_count(&grid) * ((int64_t)sizeof *grid.node + ice) +
            cloud_grid_cells(&grid) * (int64_t)sizeof *grid.cell +
            cloud_grid_cells(&grid) / 3 * (grid.pooled ? 2 : 1) * (int64_t)sizeof *grid.part *
@@ -136,10 +163,10 @@ bool cloud_grid_new(CloudGrid *g, const Cloud *cloud, const DetailNoise *detail,
     }
     g->node = memory_alloc_wide(nodes, sizeof *g->node, e);
     g->cell = memory_alloc_wide(cloud_grid_cells(g), sizeof *g->cell, e);
-    if (cloud->kind == CLOUD_STORM) {
+    if (stands_alone(cloud)) {
         g->ice = memory_alloc_zero(nodes, sizeof *g->ice, e);
     }
-    if (!g->node || !g->cell || (cloud->kind == CLOUD_STORM && !g->ice)) {
+    if (!g->node || !g->cell || (stands_alone(cloud) && !g->ice)) {
         return false;
     }
     for (int64_t i = 0; i < nodes; i++) {

@@ -61,7 +61,8 @@ typedef struct CloudGrid {
     bool pooled;            // fog on a floor: densest from its thickness below its top down
     CloudNode *node;        // at cloud_grid_node; owned
     uint8_t *ice;           // at the same: share of the greatest extinction, 0 .. ICE_STEPS, less
-                            // than all where droplets are frozen; CLOUD_STORM, else NULL; owned
+                            // than all where droplets are frozen or ash is thinned out;
+                            // CLOUD_STORM and CLOUD_PLUME, else NULL; owned
     CloudCell *cell;        // at cloud_grid_cell; owned
     CloudBounds *part;      // owned
     const DetailNoise *detail; // borrowed

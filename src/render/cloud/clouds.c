@@ -10,6 +10,7 @@
 struct CloudSet {
     DetailNoise *detail;
     int count;
+    Vec3 *albedo; // owned: of each cloud
     CloudGrid grid[];
 };
 
@@ -21,8 +22,10 @@ CloudSet *clouds_new(const Cloud *cloud, int count, uint64_t seed, const Run *ru
     }
     uint64_t key = random_key(seed, 0xc10d);
     clouds->detail = detail_new(key, run, e);
-    bool done = clouds->detail;
+    clouds->albedo = memory_alloc(count > 0 ? count : 1, sizeof *clouds->albedo, e);
+    bool done = clouds->detail && clouds->albedo;
     for (int i = 0; done && i < count; i++) {
+        clouds->albedo[i] = cloud[i].albedo;
         clouds->count++;
         uint64_t own = random_key(random_key(key, (uint64_t)i), (uint64_t)cloud[i].seed);
         done = cloud_grid_new(&clouds->grid[i], &cloud[i], clouds->detail, own, run, e) ||
@@ -42,6 +45,7 @@ void clouds_free(CloudSet *clouds)
             cloud_grid_clear(&clouds->grid[i]);
         }
         detail_free(clouds->detail);
+        free(clouds->albedo);
         free(clouds);
     }
 }
@@ -89,6 +93,27 @@ static float draw(uint64_t *key)
 {
     *key += 0x9e3779b97f4a7c15ull;
     return random_unit(*key);
+}
+
+// The mean share that is scattered, and what extinctions of cloud number i count where scattering
+// counts `scale` times.
+static float scattered(const CloudSet *clouds, int i)
+{
+    Vec3 a = clouds->albedo[i];
+    return a.x == a.y && a.y == a.z ? a.x : (a.x + a.y + a.z) / 3.0f;
+}
+
+static float scale_in(const CloudSet *clouds, int i, float scale)
+{
+    float share = scattered(clouds, i);
+    return share * scale + (1.0f - share);
+}
+
+Vec3 clouds_albedo(const CloudSet *clouds, int index, float scale)
+{
+    Vec3 a = clouds->albedo[index], one = vec3_splat(1.0f);
+    Vec3 lost = vec3_scale(vec3_sub(one, a), 1.0f / scale_in(clouds, index, scale));
+    return vec3_max(vec3_sub(one, lost), vec3_splat(0.0f));
 }
 
 // Decomposition tracking (Kutz et al., "Spectral and Decomposition Tracking", SIGGRAPH 2017): what
@@ -177,7 +202,8 @@ static float estimate_depths(const CloudSet *clouds, const CloudRay *ray, float 
 {
     float depth = 0.0f;
     for (int i = 0; i < clouds->count && depth < most; i++) {
-        depth += estimate_depth(&clouds->grid[i], ray, scale, most - depth, key);
+        depth +=
+            estimate_depth(&clouds->grid[i], ray, scale_in(clouds, i, scale), most - depth, key);
     }
     return depth;
 }
@@ -202,24 +228,33 @@ float clouds_clear(const CloudSet *clouds, const CloudRay *ray, float scale, uin
     return expf(-pivot) * sum;
 }
 
-float clouds_collide(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key)
+float clouds_collide_with(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key,
+                          int *which)
 {
     CloudRay rest = *ray;
     float nearest = INFINITY;
+    *which = 0;
     for (int i = 0; i < clouds->count; i++) {
-        float t = collide(&clouds->grid[i], &rest, scale, key);
+        float t = collide(&clouds->grid[i], &rest, scale_in(clouds, i, scale), key);
         if (t < nearest) {
             nearest = rest.far = t;
+            *which = i;
         }
     }
     return nearest;
+}
+
+float clouds_collide(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key)
+{
+    int which;
+    return clouds_collide_with(clouds, ray, scale, key, &which);
 }
 
 float clouds_pass(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key)
 {
     float share = 1.0f;
     for (int i = 0; i < clouds->count && share > 0.0f; i++) {
-        share *= pass(&clouds->grid[i], ray, scale, key);
+        share *= pass(&clouds->grid[i], ray, scale_in(clouds, i, scale), key);
     }
     return share;
 }

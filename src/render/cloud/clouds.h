@@ -26,9 +26,18 @@ typedef struct CloudRay {
     bool blurred; // of light that many scatterings have spread: small detail is left out
 } CloudRay;
 
-// Draws the distance to the first collision with a droplet, where extinctions count `scale` times;
+// Draws the distance to the first collision with a droplet, where scattering counts `scale` times;
 // INFINITY = none. *key: state of the random numbers, which advances.
 float clouds_collide(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key);
+
+// The same, with the number of the cloud that holds the droplet.
+float clouds_collide_with(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key,
+                          int *which);
+
+// Share of the light that goes on after a collision in cloud number index, where the extinction by
+// scattering counts `scale` times. What absorbs counts in full: so light reaches as far as it does
+// in nature, though fewer scatterings are traced.
+Vec3 clouds_albedo(const CloudSet *clouds, int index, float scale);
 
 // An estimate of the ray's transmittance, 0 .. 1, of the right mean.
 float clouds_pass(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key);
