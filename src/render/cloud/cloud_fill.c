@@ -2,8 +2,8 @@
 
 #include "base/random.h"
 #include "render/cloud/anvil.h"
+#include "render/cloud/ash_plume.h"
 #include "render/cloud/heaps.h"
-#include "render/cloud/plume.h"
 #include "render/cloud/profile.h"
 #include "render/cloud/storm.h"
 
@@ -109,7 +109,7 @@ static void thin_plume(CloudGrid *g, const Cloud *cloud, const Run *run)
             int64_t first = cloud_grid_node(g, x, 0, z);
             for (int y = 0; y < g->count[1]; y++) {
                 Vec3 p = vec3_madd(g->low, g->voxel, vec3((float)x, (float)y, (float)z));
-                g->ice[first + y] = (uint8_t)lrintf(plume_share(cloud, p) * ICE_STEPS);
+                g->ice[first + y] = (uint8_t)lrintf(ash_plume_share(cloud, p) * ICE_STEPS);
             }
         }
     }
@@ -121,7 +121,7 @@ static bool grow_balls(Puffs *puffs, const CloudGrid *g, const Cloud *cloud, uin
     case CLOUD_STORM:
         return storm_grow(puffs, cloud, key, e);
     case CLOUD_PLUME:
-        return plume_grow(puffs, cloud, key, e);
+        return ash_plume_grow(puffs, cloud, key, e);
     default:
         return heaps_grow(puffs, cloud, g->voxel * (float)g->count[0], key, e);
     }

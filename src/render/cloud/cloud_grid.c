@@ -1,10 +1,10 @@
 #include "render/cloud/cloud_grid.h"
 
 #include "base/memory.h"
+#include "render/cloud/ash_plume.h"
 #include "render/cloud/cloud_bounds.h"
 #include "render/cloud/cloud_fill.h"
 #include "render/cloud/cloud_voxels.h"
-#include "render/cloud/plume.h"
 #include "render/cloud/profile.h"
 #include "shape/sparse_volume.h"
 
@@ -48,7 +48,7 @@ static bool stands_alone(const Cloud *cloud)
 
 static void lay_out_plume(CloudGrid *g, const Cloud *cloud, float margin)
 {
-    Aabb box = plume_box(cloud);
+    Aabb box = ash_plume_box(cloud);
     Vec3 size = vec3_sub(box.high, box.low);
     g->repeats = false;
     g->fog = true; // densest at the vent
@@ -82,7 +82,7 @@ static void lay_out(CloudGrid *g, const Cloud *cloud, float margin)
 static Roughness roughness_of(const Cloud *cloud)
 {
     float size = cloud->kind == CLOUD_STORM ? 0.5f * cloud->size : cloud->size;
-    size = cloud->kind == CLOUD_PLUME ? plume_billow(cloud) : size;
+    size = cloud->kind == CLOUD_PLUME ? ash_plume_billow(cloud) : size;
     float torn = fminf(2.0f * cloud->softness, 1.0f);
     Roughness r = {.period = {0.62f * size, 0.097f * size},
                    .billow = {0.05f * size, 0.011f * size},

@@ -1,8 +1,8 @@
 // Plumes of ash: they begin at the vent, widen and bend with the wind; and what absorbs, does so as
 // much however few scatterings are traced.
 #include "base/random.h"
+#include "render/cloud/ash_plume.h"
 #include "render/cloud/clouds.h"
-#include "render/cloud/plume.h"
 #include "testing.h"
 
 #include <math.h>
