@@ -128,7 +128,7 @@ static float add_rot(const StemPlace *place, float share, float deep, BarkSurfac
     CellPoint cube = noise_cells(vec3(q.x + 0.3f * shred, q.y + 0.3f * fibre, q.z), 90);
     float crack = 1.0f - smoothstepf(0.0f, 0.10f, cube.border);
     crack *= smoothstepf(-0.05f, 0.3f, stain);
-    Vec3 grey = vec3(0.165f, 0.153f, 0.136f), brown = vec3(0.064f, 0.053f, 0.043f);
+    Vec3 grey = vec3(0.130f, 0.119f, 0.103f), brown = vec3(0.042f, 0.034f, 0.027f);
     float dark = clampf(1.3f * deep + 0.8f * stain, 0.0f, 1.0f);
     float value = (1.0f + 0.35f * fibre + 0.35f * shred) * (1.0f - 0.65f * cleft);
     Vec3 wood = vec3_scale(vec3_lerp(grey, brown, dark), value * (1.0f - 0.5f * crack));
