@@ -151,6 +151,8 @@ BarkLook bark_gnarled(const Material *m, const StemPlace *place, float scale, fl
             vec3_lerp(young.color, look.color, old), lerpf(young.height, look.height, old),
             lerpf(young.slope_u, look.slope_u, old), lerpf(young.slope_v, look.slope_v, old)};
     }
-    look.color = stem_earth(place, look.color);
+    // Soil lies in the cracks; rain washes the plates.
+    float washed = 0.7f * smoothstepf(0.45f, 0.85f, look.height);
+    look.color = vec3_lerp(stem_earth(place, look.color), look.color, washed);
     return look;
 }

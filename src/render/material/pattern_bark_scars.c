@@ -114,25 +114,29 @@ static void add_ribs(const Material *m, const StemPlace *place, BarkSurface *bar
     bark->color = vec3_scale(bark->color, 1.0f - 0.35f * thick * m->ribs * in);
 }
 
-// Wood that brown rot has eaten: it shrinks into cubes along the grain, between cracks, and its
-// fibres stand off. place: where it really lies, below the stem's surface. Returns its relief, m.
-static float add_rot(const StemPlace *place, float share, BarkSurface *bark)
+// Wood that rot has eaten: soft strands along the grain with clefts between them, in places shrunk
+// into cubes; grey where it weathers at the mouth, dark brown-grey within. place: where it really
+// lies, below the stem's surface. deep: 0 at the mouth .. 1. Returns its relief, m.
+static float add_rot(const StemPlace *place, float share, float deep, BarkSurface *bark)
 {
-    Vec3 torn, q = stem_lookup(place, 0.022f, 0.034f);
-    noise_solid(vec3_scale(q, 0.8f), 89, &torn);
-    CellPoint cube = noise_cells(vec3_madd(q, 0.16f, torn), 90);
-    float fibre = noise_solid(stem_lookup(place, 0.007f, 0.11f), 88, NULL);
-    float shred = noise_solid(stem_lookup(place, 0.022f, 0.34f), 96, NULL);
-    float crack = 1.0f - smoothstepf(0.0f, 0.13f, cube.border);
-    float own = noise_unit(cube.cell, 1), stain = noise_fractal(vec3_scale(q, 0.35f), 4, 97);
-    Vec3 fresh = vec3(0.082f, 0.049f, 0.029f), old = vec3(0.056f, 0.043f, 0.033f);
-    Vec3 wood = vec3_lerp(old, fresh, clampf(own + stain, 0.0f, 1.0f));
-    wood = vec3_scale(wood, (1.0f + 0.4f * fibre + 0.3f * shred) * (1.0f - 0.8f * crack));
+    float fibre = noise_solid(stem_lookup(place, 0.004f, 0.07f), 88, NULL);
+    float shred = noise_solid(stem_lookup(place, 0.013f, 0.21f), 96, NULL);
+    float strand = noise_solid(stem_lookup(place, 0.032f, 0.40f), 89, NULL);
+    float cleft = 1.0f - smoothstepf(0.0f, 0.16f, fabsf(strand + 0.25f * shred));
+    Vec3 q = stem_lookup(place, 0.024f, 0.055f);
+    float stain = noise_fractal(vec3_scale(q, 0.35f), 4, 97);
+    CellPoint cube = noise_cells(vec3(q.x + 0.3f * shred, q.y + 0.3f * fibre, q.z), 90);
+    float crack = 1.0f - smoothstepf(0.0f, 0.10f, cube.border);
+    crack *= smoothstepf(-0.05f, 0.3f, stain);
+    Vec3 grey = vec3(0.130f, 0.119f, 0.103f), brown = vec3(0.042f, 0.034f, 0.027f);
+    float dark = clampf(1.3f * deep + 0.8f * stain, 0.0f, 1.0f);
+    float value = (1.0f + 0.35f * fibre + 0.35f * shred) * (1.0f - 0.65f * cleft);
+    Vec3 wood = vec3_scale(vec3_lerp(grey, brown, dark), value * (1.0f - 0.5f * crack));
     bark->color = vec3_lerp(bark->color, wood, share);
-    return 0.003f * fibre + 0.007f * shred + 0.008f * (own - 0.5f) - 0.007f * crack;
+    return 0.0015f * fibre + 0.005f * shred + 0.006f * strand - 0.008f * cleft - 0.004f * crack;
 }
 
-// Holes in a roll of callus with a ragged edge; grey wood at their rims, rot within.
+// Holes in a roll of callus with a ragged edge; rot from their rims on.
 static void add_hollow(const Material *m, const StemPlace *place, BarkSurface *bark)
 {
     float thick = smoothstepf(0.10f, 0.20f, place->radius);
@@ -163,13 +167,10 @@ static void add_hollow(const Material *m, const StemPlace *place, BarkSurface *b
     if (rot <= 0.0f) {
         return;
     }
-    Vec3 grey = vec3_scale(vec3(0.20f, 0.18f, 0.155f), 1.0f + 0.45f * splinter + 0.3f * rag);
-    bark->color = vec3_lerp(bark->color, grey, rot);
     StemPlace inner = *place;
     float in = 1.0f - depth / place->radius;
     inner.p = vec3(in * place->p.x, in * place->p.y, place->p.z);
-    float deep = guard * smoothstepf(0.93f, 0.72f, edge);
-    bark->form += deep * add_rot(&inner, deep, bark);
+    bark->form += rot * add_rot(&inner, rot, within, bark);
 }
 
 void bark_scars(const Material *m, const SurfacePoint *point, const StemPlace *place,
