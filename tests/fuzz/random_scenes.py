@@ -59,6 +59,7 @@ SMALL = {
     "ice_cracks": {"size": 2, "grain": 0.03},
     "eruption": {"on": "cone", "bombs": 5},
     "scatter": {"count": 12, "radius": 4, "variants": 2},
+    "swarm": {"count": 12, "envelope": [{"shape": "sphere"}], "variants": 2},
 }
 # What grows in a fraction of a second on every place of a scatter.
 THINGS = ("tree", "coral", "lsystem", "frost", "shape", "stone", "venation", "sculpture", "frost_flower")
@@ -148,7 +149,7 @@ def draw_body(drawer, schema, kind):
         body["form"] = "alps"  # those need a file
     if kind == "climber":
         body["species"] = drawer.draw.choice(["ivy", "wisteria"])
-    if kind == "scatter":
+    if kind in ("scatter", "swarm"):
         body["things"] = []
         for _ in range(drawer.draw.randint(1, 2)):
             thing = drawer.draw.choice(THINGS)

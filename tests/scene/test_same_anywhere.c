@@ -415,6 +415,8 @@ static const struct {
     {"eruption: {on: cone, bombs: 4, streams: [{at: [300, 0], length: 100}]}\n  - name: cone\n"
      "    terrain: {form: volcano, size: 9000, relief: 900, resolution: 64}",
      0}, // it lies on its terrain
+    {"swarm: {count: 20, envelope: [{shape: sphere}], things: [{stone: {resolution: 4}}]}",
+     0}, // its envelope and headings lie in the scene
     {"row: {points: [{at: [0, 0, 0]}, {at: [3, 0, 1]}], things: [{stone: {resolution: 4}}]}",
      0},               // its line lies in the scene
     {"ground: {}", 0}, // it stands about the origin, and its bumps are as large as nature's
