@@ -131,13 +131,10 @@ static Flight photon_fly(Photon *photon, const Tracer *tracer, uint64_t segment,
         return scatter_in_medium(photon, &tracer->outside, key);
     }
     photon->direction = random_direction(random_key(photon->key, 2 * segment + 1));
-    Vec3 albedo = clouds_albedo(tracer->clouds, which, scale);
-    float most = fmaxf(albedo.x, fmaxf(albedo.y, albedo.z)); // they end by chance and keep
-                                                             // their power
-    if (most < 1.0f) {
-        bool lives = random_unit(random_key(key, 3)) < most;
-        photon->color = vec3_scale(vec3_mul(photon->color, albedo), 1.0f / fmaxf(most, 1e-6f));
-        return lives ? FLIGHT_DROPLET : FLIGHT_ENDED;
+    if (clouds_absorb(tracer->clouds, which) &&
+        !clouds_scatter(tracer->clouds, which, scale, random_unit(random_key(key, 3)),
+                        &photon->color)) {
+        return FLIGHT_ENDED;
     }
     return FLIGHT_DROPLET;
 }

@@ -177,20 +177,17 @@ static void add_lamps(Path *path, Vec3 point)
     path->near = 0.0f;
 }
 
-// Takes what the particle absorbs. Where it is much, roulette ends the path; false then.
+// Takes what the particle absorbs; false if that is all.
 static bool survives(Path *path)
 {
     const Tracer *tracer = path->tracer;
-    float scale = extinction_scale(tracer, path->cloud_order);
-    Vec3 albedo = clouds_albedo(tracer->clouds, path->cloud, scale);
-    float most = fmaxf(albedo.x, fmaxf(albedo.y, albedo.z));
-    if (most >= 1.0f) {
+    if (!clouds_absorb(tracer->clouds, path->cloud)) {
         return true;
     }
     path->cloud_key += 0x9e3779b97f4a7c15ull;
-    bool lives = random_unit(path->cloud_key) < most;
-    path->throughput = vec3_mul(path->throughput, vec3_scale(albedo, lives ? 1.0f / most : 0.0f));
-    return lives;
+    float scale = extinction_scale(tracer, path->cloud_order);
+    return clouds_scatter(tracer->clouds, path->cloud, scale, random_unit(path->cloud_key),
+                          &path->throughput);
 }
 
 // Roulette would not do: without absorption light lasts for hundreds of scatterings, over which the

@@ -67,27 +67,44 @@ static void it_widens_and_bends_with_the_wind(void **state)
     clouds_free(clouds);
 }
 
-// Loss by absorption a metre, and share of light that even scattering sends back, stay.
+// Of a ray's extinction, as it is.
+static double depth_along(const CloudSet *clouds, const CloudRay *ray)
+{
+    const float step = 0.05f; // m
+    double depth = 0.0;
+    for (float t = 0.5f * step; t < ray->far; t += step) {
+        Vec3 p = vec3_madd(ray->origin, t, ray->direction);
+        depth += (double)(step * clouds_extinction(clouds, p));
+    }
+    return depth;
+}
+
+// Loss by absorption a metre stays, and so does its share of what is met.
 static void absorption_is_the_same_however_wide_the_phase(void **state)
 {
     (void)state;
     Cloud cloud = plume();
-    cloud.albedo = vec3(0.9f, 0.9f, 0.9f);
+    cloud.albedo = vec3(0.6f, 0.6f, 0.6f);
     CloudSet *clouds = grow(&cloud, 1);
-    Vec3 inside = vec3(-300.0f, 560.0f, 700.0f);
-    float extinction = clouds_extinction(clouds, inside);
+    CloudRay ray = {vec3(-300.0f, 560.0f, 700.0f), vec3(0, 0, 1), 20.0f, false};
+    double depth = depth_along(clouds, &ray);
+    assert_true(clouds_absorb(clouds, 0) && depth > 0.8);
     for (float scale = 1.0f; scale > 0.1f; scale *= 0.7f) {
         float lost = 1.0f - clouds_albedo(clouds, 0, scale).x;
-        float counted = 0.9f * scale + 0.1f; // of the extinction, by the similarity of both
-        assert_true(fabsf(lost * counted - 0.1f) < 1e-4f);
+        float counted = 0.6f * scale + 0.4f; // of the extinction, by the similarity of both
+        assert_true(fabsf(lost * counted - 0.4f) < 1e-4f);
         enum { TRIALS = 20000 };
-        CloudRay ray = {inside, vec3(0, 0, 1), 6.0f, false};
-        double passed = 0.0, wanted = exp(-6.0 * (double)(counted * extinction));
+        double passed = 0.0, wanted = exp(-(double)counted * depth);
         uint64_t key = 9;
-        for (int i = 0; i < TRIALS; i++) {
+        int lives = 0;
+        for (uint64_t i = 0; i < TRIALS; i++) {
             passed += (double)clouds_pass(clouds, &ray, scale, &key) / TRIALS;
+            Vec3 weight = vec3_splat(1.0f);
+            lives += clouds_scatter(clouds, 0, scale, random_unit(random_key(i, 5)), &weight);
+            assert_true(fabsf(weight.x - 1.0f) < 1e-5f);
         }
-        assert_true(fabs(passed - wanted) < 0.06); // the ash is uneven
+        assert_true(fabs(passed - wanted) < 0.015);
+        assert_true(fabs((double)lives / TRIALS - (1.0 - (double)lost)) < 0.015);
     }
     clouds_free(clouds);
 }

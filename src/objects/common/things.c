@@ -42,6 +42,11 @@ int things_choose(const Things *things, float u)
     return last;
 }
 
+float things_clump_share(float clumping, float noise)
+{
+    return 1.0f - clumping * smoothstepf(0.25f, -0.05f, noise);
+}
+
 // OBJECT_MOST_MATERIALS of each thing, by its kind's roles.
 const char *things_material(const Things *things, int index)
 {

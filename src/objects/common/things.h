@@ -30,6 +30,10 @@ void thing_places_free(ThingPlaces *places);
 // The thing at u, 0..1, of all shares.
 int things_choose(const Things *things, float u);
 
+// Share of the places that are kept where the noise of clumps has this value; clumping: 0 = all ..
+// 1 = none between clumps.
+float things_clump_share(float clumping, float noise);
+
 // Parts of a Kind: its further_material and needs.
 const char *things_material(const Things *things, int index);
 void things_need(const Things *things, int64_t copies, Needs *needs);

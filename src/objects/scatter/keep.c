@@ -69,8 +69,8 @@ bool scatter_in_patch(const Search *s, const Spot *spot, int thing)
     uint64_t key = random_key(s->seed, STREAM_PATCHES + (uint64_t)thing);
     float scale = 1.0f / s->params->clump_size;
     float patch = noise_plane_fractal(spot->p.x * scale, spot->p.z * scale, 3, key);
-    float keep = 1.0f - s->params->clumping * smoothstepf(0.25f, -0.05f, patch);
-    return random_unit(random_key(spot->key, STREAM_PATCH)) < keep;
+    return random_unit(random_key(spot->key, STREAM_PATCH)) <
+           things_clump_share(s->params->clumping, patch);
 }
 
 bool scatter_take(const Search *s, const Spot *spot, bool *taken, Error *e)

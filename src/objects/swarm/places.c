@@ -31,12 +31,7 @@ static float density(const void *user, Vec3 p)
 {
     const Clumps *clumps = user;
     float noise = noise_space(vec3_scale(p, 1.0f / clumps->params->clump_size), clumps->seed);
-    return 1.0f - clumps->params->clumping * smoothstepf(0.25f, -0.05f, noise);
-}
-
-static float random_within(uint64_t key, int stream, float most)
-{
-    return random_range(random_key(key, (uint64_t)stream), -most, most);
+    return things_clump_share(clumps->params->clumping, noise);
 }
 
 static Transform stand(const SwarmParams *params, uint64_t seed, Vec3 p, uint64_t key)
@@ -45,12 +40,14 @@ static Transform stand(const SwarmParams *params, uint64_t seed, Vec3 p, uint64_
     float swirl =
         noise_space(vec3_scale(p, 1.0f / params->swirl_size), random_key(seed, STREAM_SWIRL)) /
         0.7f;
-    float azimuth =
-        params->azimuth + params->swirl * swirl + random_within(key, STREAM_STRAY, params->stray);
+    float azimuth = params->azimuth + params->swirl * swirl +
+                    random_range(random_key(key, STREAM_STRAY), -params->stray, params->stray);
     Vec3 up = vec3(0, 1, 0), forward = vec3_turn(vec3(0, 0, -1), up, -azimuth);
     Vec3 left = vec3_cross(up, forward);
-    forward = vec3_turn(forward, left, random_within(key, STREAM_CLIMB, params->climb));
-    left = vec3_turn(left, forward, random_within(key, STREAM_ROLL, params->roll));
+    forward = vec3_turn(forward, left,
+                        random_range(random_key(key, STREAM_CLIMB), -params->climb, params->climb));
+    left = vec3_turn(left, forward,
+                     random_range(random_key(key, STREAM_ROLL), -params->roll, params->roll));
     float size = random_range(random_key(key, STREAM_SIZE), params->scale[0], params->scale[1]);
     return transform_from_axes(vec3_scale(left, size), vec3_scale(vec3_cross(forward, left), size),
                                vec3_scale(forward, size), p);

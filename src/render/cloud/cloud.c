@@ -6,12 +6,11 @@
 // Klett 1997, ch. 2). Fog: 0.1 g/m^3, in which one sees 100 m far. Spray: 10 g/m^3 in
 // drops of 150 um. Ash: some g/m^3 of grains of 20 um of glass and dark minerals, which absorb
 // a tenth of what meets them, blue more than red.
-Cloud cloud_default(CloudKind kind)
+static Cloud form_of(CloudKind kind)
 {
     switch (kind) {
     case CLOUD_STRATUS:
         return (Cloud){.kind = kind,
-                       .albedo = {1.0f, 1.0f, 1.0f},
                        .base = 1500.0f,
                        .thickness = 400.0f,
                        .cover = 0.7f,
@@ -20,7 +19,6 @@ Cloud cloud_default(CloudKind kind)
                        .resolution = 512};
     case CLOUD_STORM:
         return (Cloud){.kind = kind,
-                       .albedo = {1.0f, 1.0f, 1.0f},
                        .base = 1000.0f,
                        .thickness = 10500.0f,
                        .cover = 1.0f,
@@ -30,7 +28,6 @@ Cloud cloud_default(CloudKind kind)
                        .resolution = 512};
     case CLOUD_FOG:
         return (Cloud){.kind = kind,
-                       .albedo = {1.0f, 1.0f, 1.0f},
                        .base = -100.0f,
                        .thickness = 200.0f,
                        .cover = 1.0f,
@@ -40,7 +37,6 @@ Cloud cloud_default(CloudKind kind)
                        .resolution = 512};
     case CLOUD_PLUME:
         return (Cloud){.kind = kind,
-                       .albedo = {0.94f, 0.92f, 0.895f},
                        .base = 0.0f,
                        .thickness = 3000.0f,
                        .cover = 1.0f,
@@ -50,15 +46,13 @@ Cloud cloud_default(CloudKind kind)
                        .drift = 0.4f,
                        .resolution = 512};
     case CLOUD_GRID:
-        return (Cloud){
-            .kind = kind, .albedo = {1.0f, 1.0f, 1.0f}, .extinction = 0.05f, .scale = 1.0f};
+        return (Cloud){.kind = kind, .extinction = 0.05f, .scale = 1.0f};
     case CLOUD_SPRAY:
-        return (Cloud){.kind = kind, .albedo = {1.0f, 1.0f, 1.0f}, .extinction = 0.2f};
+        return (Cloud){.kind = kind, .extinction = 0.2f};
     case CLOUD_CUMULUS:
         break;
     }
     return (Cloud){.kind = CLOUD_CUMULUS,
-                   .albedo = {1.0f, 1.0f, 1.0f},
                    .base = 1200.0f,
                    .thickness = 1100.0f,
                    .cover = 0.3f,
@@ -66,6 +60,13 @@ Cloud cloud_default(CloudKind kind)
                    .extinction = 0.09f,
                    .softness = 0.5f,
                    .resolution = 512};
+}
+
+Cloud cloud_default(CloudKind kind)
+{
+    Cloud cloud = form_of(kind);
+    cloud.albedo = kind == CLOUD_PLUME ? vec3(0.94f, 0.92f, 0.895f) : vec3_splat(1.0f);
+    return cloud;
 }
 
 void cloud_grounds_free(Cloud *cloud, int count)

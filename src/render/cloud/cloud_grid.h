@@ -68,6 +68,8 @@ typedef struct CloudGrid {
     const DetailNoise *detail; // borrowed
     Roughness rough;
     float base, thickness, extinction;
+    Vec3 albedo;     // share of the light that a particle scatters
+    float scattered; // mean of these shares, exactly 1 where all are
     SparseVolume
         *voxels; // CLOUD_GRID and CLOUD_SPRAY: owned, and no nodes, detail or roughness; else NULL
     Transform to_own; // from the scene to its own space, where low and cells are

@@ -10,9 +10,14 @@
 struct CloudSet {
     DetailNoise *detail;
     int count;
-    Vec3 *albedo; // owned: of each cloud
     CloudGrid grid[];
 };
+
+static void set_albedo(CloudGrid *grid, Vec3 a)
+{
+    grid->albedo = a;
+    grid->scattered = a.x == a.y && a.y == a.z ? a.x : (a.x + a.y + a.z) / 3.0f;
+}
 
 CloudSet *clouds_new(const Cloud *cloud, int count, uint64_t seed, const Run *run, Error *e)
 {
@@ -22,14 +27,13 @@ CloudSet *clouds_new(const Cloud *cloud, int count, uint64_t seed, const Run *ru
     }
     uint64_t key = random_key(seed, 0xc10d);
     clouds->detail = detail_new(key, run, e);
-    clouds->albedo = memory_alloc(count > 0 ? count : 1, sizeof *clouds->albedo, e);
-    bool done = clouds->detail && clouds->albedo;
+    bool done = clouds->detail;
     for (int i = 0; done && i < count; i++) {
-        clouds->albedo[i] = cloud[i].albedo;
         clouds->count++;
         uint64_t own = random_key(random_key(key, (uint64_t)i), (uint64_t)cloud[i].seed);
         done = cloud_grid_new(&clouds->grid[i], &cloud[i], clouds->detail, own, run, e) ||
                error_key(e, "clouds.%d", i);
+        set_albedo(&clouds->grid[i], cloud[i].albedo);
     }
     if (!done) {
         clouds_free(clouds);
@@ -45,7 +49,6 @@ void clouds_free(CloudSet *clouds)
             cloud_grid_clear(&clouds->grid[i]);
         }
         detail_free(clouds->detail);
-        free(clouds->albedo);
         free(clouds);
     }
 }
@@ -95,25 +98,31 @@ static float draw(uint64_t *key)
     return random_unit(*key);
 }
 
-// The mean share that is scattered, and what extinctions of cloud number i count where scattering
-// counts `scale` times.
-static float scattered(const CloudSet *clouds, int i)
+// What extinctions of a cloud count where scattering counts `scale` times.
+static float scale_in(const CloudGrid *grid, float scale)
 {
-    Vec3 a = clouds->albedo[i];
-    return a.x == a.y && a.y == a.z ? a.x : (a.x + a.y + a.z) / 3.0f;
+    return grid->scattered * scale + (1.0f - grid->scattered);
 }
 
-static float scale_in(const CloudSet *clouds, int i, float scale)
+bool clouds_absorb(const CloudSet *clouds, int index)
 {
-    float share = scattered(clouds, i);
-    return share * scale + (1.0f - share);
+    return clouds->grid[index].scattered < 1.0f;
 }
 
 Vec3 clouds_albedo(const CloudSet *clouds, int index, float scale)
 {
-    Vec3 a = clouds->albedo[index], one = vec3_splat(1.0f);
-    Vec3 lost = vec3_scale(vec3_sub(one, a), 1.0f / scale_in(clouds, index, scale));
+    const CloudGrid *grid = &clouds->grid[index];
+    Vec3 one = vec3_splat(1.0f);
+    Vec3 lost = vec3_scale(vec3_sub(one, grid->albedo), 1.0f / scale_in(grid, scale));
     return vec3_max(vec3_sub(one, lost), vec3_splat(0.0f));
+}
+
+bool clouds_scatter(const CloudSet *clouds, int index, float scale, float u, Vec3 *weight)
+{
+    Vec3 albedo = clouds_albedo(clouds, index, scale);
+    float most = vec3_largest(albedo);
+    *weight = vec3_scale(vec3_mul(*weight, albedo), 1.0f / fmaxf(most, 1e-6f));
+    return u < most;
 }
 
 // Decomposition tracking (Kutz et al., "Spectral and Decomposition Tracking", SIGGRAPH 2017): what
@@ -202,8 +211,8 @@ static float estimate_depths(const CloudSet *clouds, const CloudRay *ray, float 
 {
     float depth = 0.0f;
     for (int i = 0; i < clouds->count && depth < most; i++) {
-        depth +=
-            estimate_depth(&clouds->grid[i], ray, scale_in(clouds, i, scale), most - depth, key);
+        depth += estimate_depth(&clouds->grid[i], ray, scale_in(&clouds->grid[i], scale),
+                                most - depth, key);
     }
     return depth;
 }
@@ -235,7 +244,7 @@ float clouds_collide_with(const CloudSet *clouds, const CloudRay *ray, float sca
     float nearest = INFINITY;
     *which = 0;
     for (int i = 0; i < clouds->count; i++) {
-        float t = collide(&clouds->grid[i], &rest, scale_in(clouds, i, scale), key);
+        float t = collide(&clouds->grid[i], &rest, scale_in(&clouds->grid[i], scale), key);
         if (t < nearest) {
             nearest = rest.far = t;
             *which = i;
@@ -254,7 +263,7 @@ float clouds_pass(const CloudSet *clouds, const CloudRay *ray, float scale, uint
 {
     float share = 1.0f;
     for (int i = 0; i < clouds->count && share > 0.0f; i++) {
-        share *= pass(&clouds->grid[i], ray, scale_in(clouds, i, scale), key);
+        share *= pass(&clouds->grid[i], ray, scale_in(&clouds->grid[i], scale), key);
     }
     return share;
 }

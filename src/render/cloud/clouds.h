@@ -39,6 +39,13 @@ float clouds_collide_with(const CloudSet *clouds, const CloudRay *ray, float sca
 // in nature, though fewer scatterings are traced.
 Vec3 clouds_albedo(const CloudSet *clouds, int index, float scale);
 
+// Does cloud number index absorb any light?
+bool clouds_absorb(const CloudSet *clouds, int index);
+
+// Roulette by that share at a collision; u: random, 0 .. 1. False: the light is absorbed; else
+// *weight takes the colour of what goes on.
+bool clouds_scatter(const CloudSet *clouds, int index, float scale, float u, Vec3 *weight);
+
 // An estimate of the ray's transmittance, 0 .. 1, of the right mean.
 float clouds_pass(const CloudSet *clouds, const CloudRay *ray, float scale, uint64_t *key);
 
