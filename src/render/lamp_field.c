@@ -1,5 +1,6 @@
 #include "render/lamp_field.h"
 
+#include "base/color.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "render/integrator.h"
@@ -350,4 +351,20 @@ bool lamp_field_at(const LampField *field, Vec3 p, Vec3 *mean)
     }
     *mean = lamp_box_interpolate(field->mean, box, p);
     return true;
+}
+
+float lamp_field_around(const LampField *field, Vec3 p)
+{
+    Vec3 mean;
+    if (!field || lamp_field_at(field, p, &mean)) {
+        return field ? luminance(mean) : 0.0f;
+    }
+    const LampBox *box = &field->box;
+    Vec3 half = vec3_scale(
+        vec3((float)box->count[0], (float)box->count[1], (float)box->count[2]), 0.5f * box->voxel);
+    Vec3 middle = vec3_add(box->low, half), away = vec3_sub(p, middle);
+    Vec3 near = vec3(clampf(away.x, -half.x, half.x), clampf(away.y, -half.y, half.y),
+                     clampf(away.z, -half.z, half.z));
+    float dim = vec3_dot(near, near) / vec3_dot(away, away);
+    return luminance(lamp_box_interpolate(field->mean, box, vec3_add(middle, near))) * dim;
 }

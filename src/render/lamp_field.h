@@ -35,4 +35,8 @@ int64_t lamp_field_bytes(void);
 // is NULL.
 bool lamp_field_at(const LampField *field, Vec3 p, Vec3 *mean);
 
+// Luminance of that mean, about; beyond the field as at its nearest place, but falling with the
+// square of the distance from its middle. 0 where it is NULL.
+float lamp_field_around(const LampField *field, Vec3 p);
+
 #endif

@@ -62,15 +62,25 @@ float path_clouds_clear(Path *path, float far)
                         &path->cloud_key);
 }
 
-// The share of the light in a cloud that comes from lamps, by the field. 0 beyond it.
+// The share of the light in a cloud that comes from lamps, by the field.
 static float lit_by_lamps(const Tracer *tracer, Vec3 p)
 {
-    Vec3 mean;
-    if (!lamp_field_at(tracer->lamp_field, p, &mean)) {
-        return 0.0f;
+    float lamps = lamp_field_around(tracer->lamp_field, p);
+    return lamps / fmaxf(lamps + lights_mean_above(tracer->lights), 1e-30f);
+}
+
+// The most of it on a camera ray's way into a cloud from p, as far as what is seen comes from: light
+// that has forgotten its direction dims over transport mean free paths, 1 / (0.14 extinction).
+static float lit_from_within(const Tracer *tracer, Vec3 p, Vec3 direction)
+{
+    enum { STEPS = 8 };
+    float densest = clouds_densest(tracer->clouds), most = 0.0f;
+    float depth = 4.0f / (cloud_even_extinction(&tracer->droplets) * fmaxf(densest, 1e-9f));
+    for (int i = 0; i <= STEPS && tracer->lamp_field; i++) {
+        Vec3 at = vec3_madd(p, depth * (float)i / STEPS, direction);
+        most = fmaxf(most, lit_by_lamps(tracer, at));
     }
-    float lamps = luminance(mean), above = lights_mean_above(tracer->lights);
-    return lamps / fmaxf(lamps + above, 1e-30f);
+    return most;
 }
 
 // The share of a camera ray that clouds hide. *normal: the side from which they get thinner,
@@ -87,7 +97,7 @@ static float hidden(const Tracer *tracer, const CloudRay *ray, Vec3 *normal)
         Vec3 slope = clouds_slope(tracer->clouds, p);
         Ray view = {.origin = ray->origin, .direction = ray->direction, .far = distance};
         float clear = path_rain_clear(tracer, &view, distance);
-        float weight = opacity * clear * (1.0f - lit_by_lamps(tracer, p));
+        float weight = opacity * clear * (1.0f - lit_from_within(tracer, p, ray->direction));
         *normal = vec3_scale(slope, -weight / (1.0f + vec3_length(slope)));
     }
     return opacity;

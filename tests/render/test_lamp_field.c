@@ -1,6 +1,7 @@
 // The field of lamps in clouds against closed forms and against paths alone.
 #include "tiny_world.h"
 
+#include "base/color.h"
 #include "base/random.h"
 #include "render/integrator.h"
 #include "render/lamp_field.h"
@@ -304,6 +305,71 @@ static void a_field_shows_what_paths_find(void **state)
     assert_pictures_agree(true);
 }
 
+// Along a line through the field and out of it: inside what lookups tell, outside the same at the
+// rim, and a quarter of it at twice the distance.
+static void beyond_the_field_light_thins_out(void **state)
+{
+    (void)state;
+    World *world = lit_sheet(1, true, false);
+    Setup s = set_up(world);
+    LampField *field = field_of(&s);
+    assert_non_null(field);
+    const Vec3 lamp = {0, 1640, 0};
+    Vec3 mean;
+    float last = 0.0f, rim = 0.0f;
+    for (int i = 0; rim == 0.0f; i++) {
+        Vec3 p = vec3_add(lamp, vec3(2.0f * (float)i, 0, 0));
+        float around = lamp_field_around(field, p);
+        assert_true(around > 0.0f);
+        if (lamp_field_at(field, p, &mean)) {
+            assert_close(around, luminance(mean), 0.0);
+        } else {
+            assert_close(around / last, 1.0, 0.05);
+            rim = p.x;
+        }
+        last = around;
+    }
+    float twice = lamp_field_around(field, vec3(2.0f * rim, lamp.y, lamp.z));
+    assert_close(twice / last, 0.25, 0.03);
+    assert_true(lamp_field_around(NULL, lamp) == 0.0f);
+    lamp_field_free(field);
+    tear_down(&s);
+}
+
+// Sum of the lengths of the normals that guide a denoiser, looking up into a sheet of cloud at x.
+static double normals_at(float x, float lamp)
+{
+    World *world = lit_sheet(1, true, false);
+    world->sky.kind = SKY_CONSTANT;
+    world->sky.color = vec3_splat(1e-3f);
+    world->light[0].radiance = vec3_splat(lamp);
+    world->camera.position.x += x;
+    world->camera.target.x += x;
+    Film *film = trace(world, 2, NULL);
+    double sum = 0.0;
+    for (int i = 0; i < film->width * film->height; i++) {
+        sum += (double)vec3_length(film->normal[i]);
+    }
+    film_free(film);
+    world_free(world);
+    return sum;
+}
+
+// Nor does it guide a denoiser by the form of its border: under the lamp, and beyond the field, as
+// far as it outshines the sky.
+static void what_glows_from_within_has_no_form(void **state)
+{
+    (void)state;
+    const float place[2] = {0.0f, 900.0f};
+    for (int k = 0; k < 2; k++) {
+        double dark = normals_at(place[k], 1e-9f), lit = normals_at(place[k], 1e6f);
+        assert_true(dark > 1.0);
+        if (!(lit < 0.05 * dark)) {
+            fail_msg("at %g m: normals of %.3g, without the lamp %.3g", (double)place[k], lit, dark);
+        }
+    }
+}
+
 // A lamp far below the clouds, or none.
 static void there_is_none_where_it_does_not_pay(void **state)
 {
@@ -329,6 +395,8 @@ int main(void)
         cmocka_unit_test(a_medium_adds_to_the_extinction_of_the_cloud),
         cmocka_unit_test(a_hidden_lamp_is_not_kept_apart),
         cmocka_unit_test(a_field_shows_what_paths_find),
+        cmocka_unit_test(beyond_the_field_light_thins_out),
+        cmocka_unit_test(what_glows_from_within_has_no_form),
         cmocka_unit_test(there_is_none_where_it_does_not_pay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

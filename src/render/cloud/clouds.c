@@ -71,6 +71,15 @@ float clouds_extinction(const CloudSet *clouds, Vec3 p)
     return sum;
 }
 
+float clouds_densest(const CloudSet *clouds)
+{
+    float most = 0.0f;
+    for (int i = 0; i < clouds->count; i++) {
+        most = fmaxf(most, clouds->grid[i].extinction);
+    }
+    return most;
+}
+
 float clouds_extinction_of(const CloudSet *clouds, int index, Vec3 p)
 {
     return cloud_grid_extinction(&clouds->grid[index], p, true);

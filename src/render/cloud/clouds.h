@@ -56,6 +56,9 @@ float clouds_clear(const CloudSet *clouds, const CloudRay *ray, float scale, uin
 // Extinction of all clouds at a place, 1/m.
 float clouds_extinction(const CloudSet *clouds, Vec3 p);
 
+// Extinction in the midst of the densest cloud, 1/m.
+float clouds_densest(const CloudSet *clouds);
+
 // Extinction of cloud number index alone at a place, 1/m.
 float clouds_extinction_of(const CloudSet *clouds, int index, Vec3 p);
 
