@@ -6,7 +6,11 @@
 
 #include <stddef.h>
 
-enum { STREAM_SPUR = 1, STREAM_AXIS = 2, STREAM_ONES = 10 }; // of an organ; ONES + i: number i of the cluster
+enum {
+    STREAM_SPUR = 1,
+    STREAM_AXIS = 2,
+    STREAM_ONES = 10
+}; // of an organ; ONES + i: number i of the cluster
 enum { STREAM_OPEN = 1, STREAM_TURN = 2, STREAM_STALK = 3, STREAM_SIZE = 4, STREAM_FORM = 5 };
 enum { STREAM_BRACTS = 6, STREAM_NOD = 7 };
 
@@ -175,7 +179,7 @@ static void add_cluster(OrganBuild *build, uint64_t seed)
         if (is_plain(p)) {
             organ_stalk(build, vec3(0, p->spur + p->axis, 0), 1.3f * stalk_radius(p));
         } else {
-            organ_axis_add(build, &axis, 2.4f * stalk_radius(p));
+            organ_axis_add(build, &axis, 2.0f * stalk_radius(p));
         }
     }
     if (p->spur > 0.0f) {

@@ -58,10 +58,10 @@ typedef struct OrganParams {
     float open;   // 0..1: from closed to open petals, scales or wings
     int petals;   // of a blossom more than 5 in several whorls
     float buds;   // 0..1: share of a cluster's blossoms that are still closed; of bells the last
-    float spur;      // length of the short shoot on which the cluster stands; 0 = none
-    float dimple;    // 0..1: of fruit, at both ends; of a daisy the disc's radius, in petal lengths
-    int detail;      // 1 or 2; 0 = for organs of a few pixels: a cone or catkin without
-                     // scales, a blossom of flat petals without what stands between them
+    float spur;   // length of the short shoot on which the cluster stands; 0 = none
+    float dimple; // 0..1: of fruit, at both ends; of a daisy the disc's radius, in petal lengths
+    int detail;   // 1 or 2; 0 = for organs of a few pixels: a cone or catkin without
+                  // scales, a blossom of flat petals without what stands between them
 } OrganParams;
 
 // mesh[t]: of tissue t; NULL where the organ has none. The caller frees each with mesh_free. uv: u

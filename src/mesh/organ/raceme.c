@@ -3,7 +3,7 @@
 #include "base/random.h"
 #include "mesh/organ/organ_parts.h"
 
-enum { STREAM_POINTS = 10 }; // of an axis; + number
+enum { STREAM_POINTS = 10 };                                  // of an axis; + number
 enum { STREAM_LEAN = 1, STREAM_LENGTH = 2, STREAM_SIDE = 3 }; // of a bract
 
 // Degrees from +Y at t in 0..1 of the axis: it bends more and more toward its end.

@@ -2,18 +2,11 @@
 #include "config/table.h"
 #include "objects/common/organs.h"
 
-static const EnumName KINDS[] = {{"blossom", ORGAN_BLOSSOM},
-                                 {"catkin", ORGAN_CATKIN},
-                                 {"fruit", ORGAN_FRUIT},
-                                 {"cone", ORGAN_CONE},
-                                 {"acorn", ORGAN_ACORN},
-                                 {"husk", ORGAN_HUSK},
-                                 {"bud", ORGAN_BUD},
-                                 {"samara", ORGAN_SAMARA},
-                                 {"thorn", ORGAN_THORN},
-                                 {"daisy", ORGAN_DAISY},
-                                 {"bell", ORGAN_BELL},
-                                 {0}};
+static const EnumName KINDS[] = {
+    {"blossom", ORGAN_BLOSSOM}, {"catkin", ORGAN_CATKIN}, {"fruit", ORGAN_FRUIT},
+    {"cone", ORGAN_CONE},       {"acorn", ORGAN_ACORN},   {"husk", ORGAN_HUSK},
+    {"bud", ORGAN_BUD},         {"samara", ORGAN_SAMARA}, {"thorn", ORGAN_THORN},
+    {"daisy", ORGAN_DAISY},     {"bell", ORGAN_BELL},     {0}};
 static const EnumName SITES[] = {
     {"ends", SITES_ENDS}, {"along", SITES_ALONG}, {"stem", SITES_STEM}, {0}};
 static const EnumName CLUSTERS[] = {{"umbel", CLUSTER_UMBEL}, {"raceme", CLUSTER_RACEME}, {0}};
@@ -76,8 +69,9 @@ static const Key ORGAN_KEYS[] = {
     {KEY_OF(OrganGroup, spread, "spread", KEY_FLOAT), .high = 180, .unit = "degrees",
      .doc = "Angle between the outermost stalks of a cluster and its axis."},
     {KEY_OF(OrganGroup, length, "length", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100, .unit = "m",
-     .doc = "Length of one; of blossom that of a petal, of a bell that of a petal along its curl, of "
-            "a samara that of a wing."},
+     .doc =
+         "Length of one; of blossom that of a petal, of a bell that of a petal along its curl, of "
+         "a samara that of a wing."},
     {KEY_OF(OrganGroup, width, "width", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100, .unit = "m",
      .doc = "Width of one, of a bell its tube's; of blossom that of a petal, of a samara that of a "
             "wing."},
