@@ -64,7 +64,7 @@ SMALL = {
 # What grows in a fraction of a second on every place of a scatter.
 THINGS = ("tree", "coral", "lsystem", "frost", "shape", "stone", "venation", "sculpture", "frost_flower")
 SPECIES = sorted(file.stem for file in (ROOT / "scenes/species").glob("*.yaml"))
-HERBS = ("timothy", "oxeye_daisy", "cow_parsley", "meadow_buttercup", "common_sorrel")  # small at their own height
+HERBS = ("timothy", "bluebell", "oxeye_daisy", "cow_parsley", "meadow_buttercup", "common_sorrel")  # small at their own height
 
 
 class Drawer:

@@ -309,6 +309,126 @@ static void a_fruit_is_an_ellipsoid(void **state)
     clear(mesh);
 }
 
+static OrganParams bell(void)
+{
+    OrganParams params = plain(ORGAN_BELL);
+    params.length = 0.02f;
+    params.width = 0.008f;
+    params.stalk = 0.0f;
+    params.petals = 6;
+    params.open = 0.0f;
+    return params;
+}
+
+// Largest distance of the mesh's vertices from +Y above this height, m.
+static float reach_above(const Mesh *mesh, float low)
+{
+    return reach_of(mesh, low, INFINITY);
+}
+
+// Closed tips end a tube as wide as asked for and as long as its petals; open ones curl out and
+// back.
+static void bells_curl_back(void **state)
+{
+    (void)state;
+    OrganParams params = bell();
+    for (params.detail = 1; params.detail <= 2; params.detail++) {
+        Mesh *tube[TISSUES], *open[TISSUES];
+        params.open = 0.0f;
+        make(&params, tube);
+        params.open = 1.0f;
+        make(&params, open);
+        float tube_high = mesh_bounds(tube[TISSUE_PETAL]).high.y;
+        float size = tube_high / params.length; // sizes vary
+        assert_true(size > 0.87f && size < 1.09f);
+        float reach = reach_above(tube[TISSUE_PETAL], 0.0f);
+        assert_true(reach > 0.45f * size * params.width && reach < 0.6f * size * params.width);
+        assert_true(reach_above(open[TISSUE_PETAL], 0.0f) > 1.4f * reach);
+        // The farthest out is above the mouth's rim no more, but curled back.
+        float rim = mesh_bounds(open[TISSUE_PETAL]).high.y;
+        assert_true(rim < 0.93f * tube_high);
+        assert_true(reach_above(open[TISSUE_PETAL], 0.98f * rim) <
+                    0.95f * reach_above(open[TISSUE_PETAL], 0.0f));
+        int64_t more = params.detail > 1 ? params.petals + 1 : 0; // filaments and the style
+        assert_int_equal(pieces(open[TISSUE_PETAL]), params.petals + more);
+        assert_int_equal(pieces(open[TISSUE_ANTHER]), params.detail > 1 ? params.petals : 0);
+        for (int64_t f = 0; f < open[TISSUE_PETAL]->face_count; f++) {
+            assert_true(quad_area(open[TISSUE_PETAL], f) > 1e-13);
+        }
+        clear(tube);
+        clear(open);
+    }
+}
+
+// Of a raceme with a share of buds the last are closed: narrow at their ends, without anthers.
+static void the_last_bells_are_buds(void **state)
+{
+    (void)state;
+    OrganParams params = bell();
+    params.cluster = CLUSTER_RACEME;
+    params.per_cluster = 20;
+    params.buds = 0.5f;
+    params.open = 1.0f;
+    params.spread = 0.0f;
+    Mesh *mesh[TISSUES];
+    make(&params, mesh);
+    int64_t open = pieces(mesh[TISSUE_ANTHER]) / params.petals;
+    assert_true(open >= 8 && open <= 12);
+    assert_true(mesh_bounds(mesh[TISSUE_ANTHER]).high.y < 0.75f * params.axis);
+    float half = 0.6f * params.width;
+    assert_true(reach_of(mesh[TISSUE_PETAL], 0.0f, 0.3f * params.axis) > 1.2f * half);
+    assert_true(reach_of(mesh[TISSUE_PETAL], 0.8f * params.axis, INFINITY) < half);
+    clear(mesh);
+}
+
+static Vec3 middle_of(const Mesh *mesh)
+{
+    Vec3 sum = vec3(0, 0, 0);
+    for (int64_t v = 0; v < mesh->vertex_count; v++) {
+        sum = vec3_add(sum, mesh->position[v]);
+    }
+    return vec3_scale(sum, 1.0f / (float)mesh->vertex_count);
+}
+
+// An axis bends toward +X as far as asked for, its organs turn to that side and hang, and each has
+// its bracts.
+static void racemes_arch_and_nod(void **state)
+{
+    (void)state;
+    OrganParams params = plain(ORGAN_FRUIT);
+    params.length = params.width = 0.006f;
+    params.stalk = 0.03f;
+    params.per_cluster = 24;
+    params.cluster = CLUSTER_RACEME;
+    params.spread = 80.0f;
+    Mesh *upright[TISSUES], *other[TISSUES];
+    make(&params, upright);
+    Vec3 middle = middle_of(upright[TISSUE_FLESH]);
+    assert_true(fabsf(middle.x) < 0.006f && fabsf(middle.z) < 0.006f);
+    params.one_sided = 1.0f;
+    make(&params, other);
+    assert_true(middle_of(other[TISSUE_FLESH]).x > middle.x + 0.01f);
+    clear(other);
+    params.one_sided = 0.0f;
+    params.nod = 1.0f;
+    make(&params, other);
+    assert_true(middle_of(other[TISSUE_FLESH]).y < middle.y - 0.007f);
+    clear(other);
+    params.nod = 0.0f;
+    params.bracts = 2;
+    params.bract_length = 0.01f;
+    make(&params, other);
+    assert_int_equal(pieces(other[TISSUE_GREEN]), 1 + params.per_cluster * (1 + params.bracts));
+    clear(other);
+    params.arch = 90.0f; // its end runs level, at a height of about a half to nine tenths
+    make(&params, other);
+    Aabb box = mesh_bounds(other[TISSUE_FLESH]);
+    assert_true(box.high.x > 0.35f * params.axis && box.low.x > -0.04f);
+    assert_true(box.high.y < mesh_bounds(upright[TISSUE_FLESH]).high.y - 0.03f);
+    clear(other);
+    clear(upright);
+}
+
 // The opening decides how far scales stand off.
 static void cones_open(void **state)
 {
@@ -339,6 +459,9 @@ int main(void)
         cmocka_unit_test(a_small_blossom_keeps_its_white),
         cmocka_unit_test(a_fruit_is_an_ellipsoid),
         cmocka_unit_test(cones_open),
+        cmocka_unit_test(bells_curl_back),
+        cmocka_unit_test(the_last_bells_are_buds),
+        cmocka_unit_test(racemes_arch_and_nod),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,6 +54,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"scatter: {count: 40, spacing: 0.3, things: [{stone: {resolution: 4}}, {tree: {species: "
          "oxeye_daisy}}]}",
          0x93cdeb3e350b295a},
+        {"tree: {species: bluebell}", 0x2e399edef959b330},
         {"sea: {spokes: 64, extent: 500, time: 3}", 0x19ee0aedc494f2a5},
         {"snow_crystal: {cells: 40, noise: 0.01}", 0x484e898b0f3f885c},
         {"snow_crystal: {cells: 20, noise: 0.1, life: [{at: 0.4, temperature: -6, supersaturation: "

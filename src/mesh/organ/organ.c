@@ -6,8 +6,13 @@
 
 #include <stddef.h>
 
-enum { STREAM_SPUR = 1, STREAM_ONES = 10 }; // of an organ; ONES + i: number i of the cluster
+enum {
+    STREAM_SPUR = 1,
+    STREAM_AXIS = 2,
+    STREAM_ONES = 10
+}; // of an organ; ONES + i: number i of the cluster
 enum { STREAM_OPEN = 1, STREAM_TURN = 2, STREAM_STALK = 3, STREAM_SIZE = 4, STREAM_FORM = 5 };
+enum { STREAM_BRACTS = 6, STREAM_NOD = 7 };
 
 void organ_set_place(OrganBuild *build, const Transform *place)
 {
@@ -70,7 +75,7 @@ static void add_one(OrganBuild *build, uint64_t seed)
         [ORGAN_BLOSSOM] = organ_blossom, [ORGAN_CATKIN] = organ_catkin, [ORGAN_FRUIT] = organ_fruit,
         [ORGAN_CONE] = organ_cone,       [ORGAN_ACORN] = organ_acorn,   [ORGAN_HUSK] = organ_husk,
         [ORGAN_BUD] = organ_bud,         [ORGAN_SAMARA] = organ_samara, [ORGAN_THORN] = organ_thorn,
-        [ORGAN_DAISY] = organ_daisy};
+        [ORGAN_DAISY] = organ_daisy,     [ORGAN_BELL] = organ_bell};
     add[build->params->kind](build, seed);
 }
 
@@ -93,44 +98,95 @@ static float age_of(const OrganParams *p, int i)
     return p->cluster == CLUSTER_RACEME ? 1.0f - p->taper * rank * rank : 1.0f;
 }
 
+// Does the cluster's axis bend, or do its members hang or stand above bracts?
+static bool is_plain(const OrganParams *p)
+{
+    return !(p->arch > 0.0f || p->one_sided > 0.0f || p->nod > 0.0f || p->bracts > 0);
+}
+
+// Radius of a cluster's stalks, m.
+static float stalk_radius(const OrganParams *p)
+{
+    return fmaxf((p->kind == ORGAN_BELL ? 0.075f : 0.03f) * p->width, 0.0004f);
+}
+
+// The frame of a member at the end of its stalk, which it adds.
+static Transform add_straight_stalk(OrganBuild *build, Vec3 start, float lean, float turn,
+                                    float stalk)
+{
+    Transform frame = organ_frame(start, lean, turn);
+    Vec3 end = transform_point(&frame, vec3(0, stalk, 0));
+    organ_set_place(build, NULL);
+    if (stalk > 0.0f) {
+        Transform at = transform_from_axes(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), start);
+        organ_set_place(build, &at);
+        organ_stalk(build, vec3_sub(end, start), stalk_radius(build->params));
+    }
+    return organ_frame(end, lean, turn);
+}
+
+// The same on an axis that bends, with bracts, turned to one side and hanging as far as asked for.
+static Transform add_hanging_stalk(OrganBuild *build, const OrganAxis *axis, Vec3 start, float lean,
+                                   float turn, float stalk, float age, uint64_t key)
+{
+    const OrganParams *p = build->params;
+    float along = p->axis > 0.0f ? (start.y - p->spur) / p->axis : 0.0f;
+    Transform at = p->cluster == CLUSTER_RACEME
+                       ? organ_axis_frame(axis, along)
+                       : transform_from_axes(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), start);
+    float round = turn - 360.0f * floorf(turn / 360.0f + 0.5f); // -180..180
+    Transform own = organ_frame(vec3(0, 0, 0), lean, round * (1.0f - 0.75f * p->one_sided));
+    Transform frame = transform_multiply(&at, &own);
+    organ_set_place(build, NULL);
+    organ_bracts(build, &frame, age, random_key(key, STREAM_BRACTS));
+    // Buds look along the axis until their stalks have grown.
+    float grown = p->cluster == CLUSTER_RACEME ? 1.0f - 0.75f * along * along * along : 1.0f;
+    float nod = p->nod * grown * random_range(random_key(key, STREAM_NOD), 0.88f, 1.12f);
+    return organ_nodding_stalk(build, &frame, stalk, clampf(nod, 0.0f, 1.0f), stalk_radius(p));
+}
+
+static void add_member(OrganBuild *build, const OrganAxis *axis, int i, uint64_t key)
+{
+    const OrganParams *p = build->params;
+    float lean, age = age_of(p, i);
+    float size = age * random_range(random_key(key, STREAM_SIZE), 0.88f, 1.08f);
+    Vec3 start = start_of(p, i, &lean);
+    lean *= random_range(random_key(key, STREAM_OPEN), 0.8f, 1.2f);
+    float turn =
+        (float)i * ORGAN_DIVERGENCE + random_range(random_key(key, STREAM_TURN), -20.0f, 20.0f);
+    uint64_t form = random_key(key, STREAM_FORM);
+    float stalk = age * p->stalk * random_range(random_key(key, STREAM_STALK), 0.8f, 1.15f);
+    stalk *= organ_is_closed(p, form) ? CLOSED_STALK : 1.0f;
+    build->rank = ((float)i + 0.5f) / (float)p->per_cluster;
+    Transform own = is_plain(p)
+                        ? add_straight_stalk(build, start, lean, turn, stalk)
+                        : add_hanging_stalk(build, axis, start, lean, turn, stalk, age, key);
+    for (int row = 0; row < 3; row++) {
+        for (int column = 0; column < 3; column++) {
+            own.m[row][column] *= size;
+        }
+    }
+    organ_set_place(build, &own);
+    add_one(build, form);
+    organ_set_place(build, NULL);
+}
+
 static void add_cluster(OrganBuild *build, uint64_t seed)
 {
     const OrganParams *p = build->params;
-    float thick = fmaxf(0.03f * p->width, 0.0004f);
+    OrganAxis axis = organ_axis(p, random_key(seed, STREAM_AXIS));
     if (p->cluster == CLUSTER_RACEME) {
-        organ_stalk(build, vec3(0, p->spur + p->axis, 0), 1.3f * thick);
+        if (is_plain(p)) {
+            organ_stalk(build, vec3(0, p->spur + p->axis, 0), 1.3f * stalk_radius(p));
+        } else {
+            organ_axis_add(build, &axis, 2.0f * stalk_radius(p));
+        }
     }
     if (p->spur > 0.0f) {
         organ_spur(build, random_key(seed, STREAM_SPUR));
     }
     for (int i = 0; i < p->per_cluster; i++) {
-        uint64_t key = random_key(seed, STREAM_ONES + (uint64_t)i);
-        float lean, age = age_of(p, i);
-        float size = age * random_range(random_key(key, STREAM_SIZE), 0.88f, 1.08f);
-        Vec3 start = start_of(p, i, &lean);
-        lean *= random_range(random_key(key, STREAM_OPEN), 0.8f, 1.2f);
-        float turn =
-            (float)i * ORGAN_DIVERGENCE + random_range(random_key(key, STREAM_TURN), -20.0f, 20.0f);
-        Transform frame = organ_frame(start, lean, turn);
-        uint64_t form = random_key(key, STREAM_FORM);
-        float stalk = age * p->stalk * random_range(random_key(key, STREAM_STALK), 0.8f, 1.15f);
-        stalk *= organ_is_closed(p, form) ? CLOSED_STALK : 1.0f;
-        Vec3 end = transform_point(&frame, vec3(0, stalk, 0));
-        organ_set_place(build, NULL);
-        if (stalk > 0.0f) {
-            Transform at = transform_from_axes(vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), start);
-            organ_set_place(build, &at);
-            organ_stalk(build, vec3_sub(end, start), thick);
-        }
-        Transform own = organ_frame(end, lean, turn);
-        for (int row = 0; row < 3; row++) {
-            for (int column = 0; column < 3; column++) {
-                own.m[row][column] *= size;
-            }
-        }
-        organ_set_place(build, &own);
-        add_one(build, form);
-        organ_set_place(build, NULL);
+        add_member(build, &axis, i, random_key(seed, STREAM_ONES + (uint64_t)i));
     }
 }
 

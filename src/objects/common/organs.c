@@ -59,6 +59,10 @@ static Transform frame_of(const OrganGroup *group, const Site *site)
     Vec3 down = vec3_madd(vec3(0, -1, 0), 0.12f, y);
     y = vec3_normalize(vec3_lerp(y, down, group->hang));
     Vec3 x = vec3_cross(y, random_direction(random_key(site->key, STREAM_ROLL)));
+    if (group->arch > 0.0f || group->nod > 0.0f) { // they bend down, upright ones to any side
+        x = vec3_madd(vec3(0, -1, 0), 0.15f, x);
+        x = vec3_madd(x, -vec3_dot(x, y), y);
+    }
     x = vec3_dot(x, x) > 1e-6f ? vec3_normalize(x) : vec3_perpendicular(y);
     float size = 1.0f - group->size_variation * random_unit(random_key(site->key, STREAM_SIZE));
     static const float inside_of[] = {
@@ -200,7 +204,7 @@ static bool is_scaly(OrganKind kind)
 // Simpler forms for organs of a few pixels, where there are some; else NULL. The caller frees each.
 static bool coarse_meshes(const OrganParams *form, uint64_t key, Mesh *mesh[TISSUES], Error *e)
 {
-    bool some = is_scaly(form->kind) || form->kind == ORGAN_BLOSSOM;
+    bool some = is_scaly(form->kind) || form->kind == ORGAN_BLOSSOM || form->kind == ORGAN_BELL;
     OrganParams plain = *form;
     plain.detail = 0;
     return !some || organ_meshes(&plain, key, mesh, e);
@@ -218,6 +222,11 @@ static bool add_variant(const OrganGroup *group, int variant, LeafBatch *batch,
                         .per_cluster = group->per_cluster,
                         .axis = group->axis,
                         .taper = group->taper,
+                        .arch = group->arch,
+                        .one_sided = group->one_sided,
+                        .nod = group->nod,
+                        .bracts = group->bracts,
+                        .bract_length = group->bract_length,
                         .spread = group->spread,
                         .open = group->open,
                         .petals = group->petals,

@@ -30,6 +30,9 @@ typedef struct OrganGroup {
     OrganCluster cluster;
     int per_cluster;
     float axis, taper, spread;
+    float arch, one_sided, nod;
+    int bracts;
+    float bract_length;
     float length, width, stalk; // m
     float open;
     int petals;

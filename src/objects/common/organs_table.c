@@ -2,17 +2,11 @@
 #include "config/table.h"
 #include "objects/common/organs.h"
 
-static const EnumName KINDS[] = {{"blossom", ORGAN_BLOSSOM},
-                                 {"catkin", ORGAN_CATKIN},
-                                 {"fruit", ORGAN_FRUIT},
-                                 {"cone", ORGAN_CONE},
-                                 {"acorn", ORGAN_ACORN},
-                                 {"husk", ORGAN_HUSK},
-                                 {"bud", ORGAN_BUD},
-                                 {"samara", ORGAN_SAMARA},
-                                 {"thorn", ORGAN_THORN},
-                                 {"daisy", ORGAN_DAISY},
-                                 {0}};
+static const EnumName KINDS[] = {
+    {"blossom", ORGAN_BLOSSOM}, {"catkin", ORGAN_CATKIN}, {"fruit", ORGAN_FRUIT},
+    {"cone", ORGAN_CONE},       {"acorn", ORGAN_ACORN},   {"husk", ORGAN_HUSK},
+    {"bud", ORGAN_BUD},         {"samara", ORGAN_SAMARA}, {"thorn", ORGAN_THORN},
+    {"daisy", ORGAN_DAISY},     {"bell", ORGAN_BELL},     {0}};
 static const EnumName SITES[] = {
     {"ends", SITES_ENDS}, {"along", SITES_ALONG}, {"stem", SITES_STEM}, {0}};
 static const EnumName CLUSTERS[] = {{"umbel", CLUSTER_UMBEL}, {"raceme", CLUSTER_RACEME}, {0}};
@@ -24,7 +18,8 @@ static const Key ORGAN_KEYS[] = {
          "hazel); fruit: round or long (apple, cherry, olive, date); cone: woody scales; acorn; "
          "husk: a ball with spikes (horse chestnut); bud: of winter twigs; samara: paired "
          "winged nuts (maple); thorn: straight spines; daisy: rays about a disc, which is of the "
-         "fruit's material."},
+         "fruit's material; bell: petals that form a tube and curl back at their tips (bluebell, "
+         "lily of the valley)."},
     {KEY_OF(OrganGroup, where, "where", KEY_ENUM), .names = SITES,
      .doc = "ends: at the ends of twigs; along: along twigs, in a spiral; stem: in lines along "
             "stems and branches, as a cactus' spines."},
@@ -58,21 +53,39 @@ static const Key ORGAN_KEYS[] = {
     {KEY_OF(OrganGroup, taper, "taper", KEY_FLOAT), .high = 1,
      .doc = "How much smaller a raceme's organs and their stalks are toward its end, where they "
             "are younger; 0 = all are equal."},
+    {KEY_OF(OrganGroup, arch, "arch", KEY_FLOAT), .high = 180, .unit = "degrees",
+     .doc = "Angle by which a raceme's axis bends over to its end, as a bluebell's; it bends down "
+            "from where it starts."},
+    {KEY_OF(OrganGroup, one_sided, "one_sided", KEY_FLOAT), .high = 1,
+     .doc = "How far a cluster's stalks turn to one side, that to which its axis bends: 0 = they "
+            "stand all round."},
+    {KEY_OF(OrganGroup, nod, "nod", KEY_FLOAT), .high = 1,
+     .doc = "How far each one hangs down from the end of its own stalk, which bends; those near a "
+            "raceme's end less."},
+    {KEY_OF(OrganGroup, bracts, "bracts", KEY_INT), .high = 12,
+     .doc = "Number of narrow bracts at the foot of each stalk, of the stalks' material."},
+    {KEY_OF(OrganGroup, bract_length, "bract_length", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Length of the longest of them."},
     {KEY_OF(OrganGroup, spread, "spread", KEY_FLOAT), .high = 180, .unit = "degrees",
      .doc = "Angle between the outermost stalks of a cluster and its axis."},
     {KEY_OF(OrganGroup, length, "length", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100, .unit = "m",
-     .doc = "Length of one; of blossom that of a petal, of a samara that of a wing."},
+     .doc =
+         "Length of one; of blossom that of a petal, of a bell that of a petal along its curl, of "
+         "a samara that of a wing."},
     {KEY_OF(OrganGroup, width, "width", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100, .unit = "m",
-     .doc = "Width of one; of blossom that of a petal, of a samara that of a wing."},
+     .doc = "Width of one, of a bell its tube's; of blossom that of a petal, of a samara that of a "
+            "wing."},
     {KEY_OF(OrganGroup, stalk, "stalk", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Length of each one's stalk."},
     {KEY_OF(OrganGroup, open, "open", KEY_FLOAT), .high = 1,
      .doc = "From closed (0) to wide open (1): petals, the scales of cones and catkins, the wings "
-            "of a samara."},
+            "of a samara; of bells how far their tips curl back, 0 = a plain tube."},
     {KEY_OF(OrganGroup, petals, "petals", KEY_INT), .low = 3, .high = 60,
-     .doc = "Petals of a blossom, where more than 5 stand in several whorls, or rays of a daisy."},
+     .doc = "Petals of a blossom, where more than 5 stand in several whorls, or of a bell; rays of "
+            "a daisy."},
     {KEY_OF(OrganGroup, buds, "buds", KEY_FLOAT), .high = 1,
-     .doc = "Share of the blossoms of a cluster that are still closed, on shorter stalks."},
+     .doc = "Share of the blossoms of a cluster that are still closed, on shorter stalks; of bells "
+            "the last ones of the cluster."},
     {KEY_OF(OrganGroup, spur, "spur", KEY_FLOAT), .high = 1, .unit = "m",
      .doc = "Length of the ringed short shoot that each cluster stands on, with the open scales of "
             "its bud at detail 2, as a cherry's, of the cones' material. 0 = none."},
@@ -191,6 +204,18 @@ static const OrganGroup OWN_DEFAULTS[] = {
                      .width = 0.0055f,
                      .open = 0.95f,
                      .dimple = 0.5f},
+    [ORGAN_BELL] = {.where = SITES_ENDS,
+                    .share = 0.8f,
+                    .spacing = 0.1f,
+                    .angle = 60.0f,
+                    .cluster = CLUSTER_RACEME,
+                    .per_cluster = 8,
+                    .spread = 50.0f,
+                    .nod = 0.8f,
+                    .length = 0.019f,
+                    .width = 0.008f,
+                    .stalk = 0.012f,
+                    .open = 0.8f},
 };
 
 static void organ_defaults(const Node *given, int kind, void *out)
@@ -203,7 +228,8 @@ static void organ_defaults(const Node *given, int kind, void *out)
     group->twig_radius = 0.008f;
     group->rows = 12;
     group->axis = 0.15f;
-    group->petals = 5;
+    group->petals = kind == ORGAN_BELL ? 6 : 5;
+    group->bract_length = 0.015f;
     group->size_variation = 0.25f;
     group->variants = 3;
     group->detail = 1;
