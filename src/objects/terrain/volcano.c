@@ -15,7 +15,6 @@
 #include <string.h>
 
 enum { FIRST_CELLS = 256, STAGES = 16, STAGE_FLOWS = 3 };
-static const double STEEPEST = 0.625; // 32 degrees: the upper flanks
 
 static Volcano volcano_of(const Terrain *terrain)
 {
@@ -235,7 +234,8 @@ static bool grow(Volcano *v, Landscape *land, const Run *run, Error *e)
         if (sinks) { // a smaller cone grows within
             volcano_sink_caldera(v, land);
             v->fall = 0.4 * (double)v->params.volcano.caldera;
-            v->relief = volcano_ring(v, land, 0.5 * v->params.volcano.caldera) + STEEPEST * v->fall;
+            v->relief =
+                volcano_ring(v, land, 0.5 * v->params.volcano.caldera) + VOLCANO_STEEPEST * v->fall;
             v->relief = v->relief < relief ? v->relief : relief;
         }
         if (!grow_stage(v, land, stage, run, e)) {
@@ -245,6 +245,50 @@ static bool grow(Volcano *v, Landscape *land, const Run *run, Error *e)
     v->relief = relief;
     v->fall = fall;
     return true;
+}
+
+// The cone as it was built, before rain has cut it.
+static bool pile(Volcano *v, Landscape *land, const Run *run, Error *e)
+{
+    if (v->params.volcano.kind == VOLCANO_ASH) {
+        volcano_heap_ash(v, land);
+        return true;
+    }
+    return grow(v, land, run, e);
+}
+
+// ---- barrancos
+
+enum { BARRANCO_CELLS = 5 }; // that a barranco takes to be seen at all
+
+// Rain finds the grooves on the first grid that resolves them, or on the finest. Returns the share
+// of the barrancos' depth that is this grid's part.
+static double barranco_share(const Volcano *v, Landscape *land, bool finest)
+{
+    double cells = v->params.volcano.barrancos > 0 ? volcano_barranco_spacing(v) / land->cell : 0.0;
+    bool resolved = cells >= BARRANCO_CELLS, before = 0.5 * cells >= BARRANCO_CELLS;
+    bool first = land->side <= FIRST_CELLS + 1;
+    if ((resolved && (!before || first)) || (cells > 0.0 && finest && !resolved)) {
+        volcano_groove(v, land);
+        return 0.6;
+    }
+    return resolved ? 0.2 : 0.0;
+}
+
+// A share of what rain does to a cone of which barrancos are asked for.
+static bool gully(const Volcano *v, Landscape *land, double share, int steps, const Run *run,
+                  Error *e)
+{
+    return share <= 0.0 || volcano_cut_barrancos(v, land, share, steps, run, e);
+}
+
+// A grid's part in what rain does. Ash drinks all water but that of barrancos.
+static bool wear(const Volcano *v, Landscape *land, double share, int steps, bool finest,
+                 const Run *run, Error *e)
+{
+    bool ash = v->params.volcano.kind == VOLCANO_ASH;
+    return (ash || weather(v, land, share, steps, run, e)) &&
+           gully(v, land, barranco_share(v, land, finest), steps, run, e);
 }
 
 // ---- the finest grid
@@ -279,6 +323,9 @@ static void redden(Volcano *v, const Landscape *land)
 // What gives the surface its last form.
 static bool finish(Volcano *v, Landscape *land, const Run *run, Error *e)
 {
+    if (v->params.volcano.kind == VOLCANO_ASH) {
+        return volcano_breach(v, land, run, e);
+    }
     double age = (double)v->params.volcano.age;
     bool breached = v->params.volcano.breach > 0.0f;
     volcano_open_crater(v, land);
@@ -294,7 +341,8 @@ static bool finish(Volcano *v, Landscape *land, const Run *run, Error *e)
         volcano_open_crater(v, land);
     }
     set_weakness(v, land);
-    return weather(v, land, 0.006 + 0.3 * age, 6, run, e);
+    return weather(v, land, 0.006 + 0.3 * age, 6, run, e) &&
+           gully(v, land, v->params.volcano.barrancos > 0 ? 0.3 : 0.0, 12, run, e);
 }
 
 // ---- grids
@@ -352,15 +400,15 @@ Landscape *terrain_evolve_volcano(Terrain *terrain, const Run *run, Error *e)
         open_border(land);
         volcano_find_weakness(&v, land, run);
         set_weakness(&v, land);
-        done = grow(&v, land, run, e);
+        done = pile(&v, land, run, e);
     }
     double share = 0.10 + 0.35 * (double)v.params.volcano.age;
-    done = done && weather(&v, land, share, 16, run, e);
+    done = done && wear(&v, land, share, 16, cells >= most, run, e);
     while (done && cells < most) {
         land = refine(&v, land, run, e);
         cells *= 2;
         share *= 0.5;
-        done = land && weather(&v, land, share, 12, run, e);
+        done = land && wear(&v, land, share, 12, cells >= most, run, e);
     }
     done = done && finish(&v, land, run, e) && (terrain->ground = ground_of(&v, land, e));
     clear(&v);

@@ -11,6 +11,8 @@ typedef struct Vent {
     double radius; // m: of a scoria cone's foot
 } Vent;
 
+#define VOLCANO_STEEPEST 0.625 // 32 degrees: the upper flanks
+
 typedef struct Volcano {
     const Terrain *terrain;
     TerrainParams params; // resolved
@@ -30,7 +32,7 @@ typedef struct Volcano {
 // The distance over which tephra gets thinner by e, for flanks of 32 degrees below the rim.
 static inline double volcano_fall(const TerrainParams *resolved)
 {
-    return (double)resolved->relief / 0.625;
+    return (double)resolved->relief / VOLCANO_STEEPEST;
 }
 
 // Distance and direction from a vent.
@@ -41,6 +43,21 @@ Away volcano_away(const Landscape *land, const Vent *vent, int64_t i);
 
 // volcano_rock.c: fills v->weakness: what differs from place to place.
 void volcano_find_weakness(Volcano *v, const Landscape *land, const Run *run);
+
+// volcano_ash.c: a cone of ash on the plain, its flanks at repose, its rim lower here than there.
+void volcano_heap_ash(const Volcano *v, Landscape *land);
+// Radius at which the cone has half its height, m.
+double volcano_half_radius(const Volcano *v);
+
+// volcano_barrancos.c
+
+// From barranco to barranco there, m.
+double volcano_barranco_spacing(const Volcano *v);
+// Grooves in which the first rain gathers.
+void volcano_groove(const Volcano *v, Landscape *land);
+// Rain cuts barrancos for a share of the cone's age, in steps; their walls fall to what ash bears.
+bool volcano_cut_barrancos(const Volcano *v, Landscape *land, double share, int steps,
+                           const Run *run, Error *e);
 
 // volcano_vent.c: tephra, craters, scoria cones, sector collapse, caldera.
 
