@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_CELLS = 256, STAGES = 16, STAGE_FLOWS = 3 };
+enum { STAGES = 16, STAGE_FLOWS = 3 };
 
 static Volcano volcano_of(const Terrain *terrain)
 {
@@ -257,38 +257,13 @@ static bool pile(Volcano *v, Landscape *land, const Run *run, Error *e)
     return grow(v, land, run, e);
 }
 
-// ---- barrancos
-
-enum { BARRANCO_CELLS = 5 }; // that a barranco takes to be seen at all
-
-// Rain finds the grooves on the first grid that resolves them, or on the finest. Returns the share
-// of the barrancos' depth that is this grid's part.
-static double barranco_share(const Volcano *v, Landscape *land, bool finest)
-{
-    double cells = v->params.volcano.barrancos > 0 ? volcano_barranco_spacing(v) / land->cell : 0.0;
-    bool resolved = cells >= BARRANCO_CELLS, before = 0.5 * cells >= BARRANCO_CELLS;
-    bool first = land->side <= FIRST_CELLS + 1;
-    if ((resolved && (!before || first)) || (cells > 0.0 && finest && !resolved)) {
-        volcano_groove(v, land);
-        return 0.6;
-    }
-    return resolved ? 0.2 : 0.0;
-}
-
-// A share of what rain does to a cone of which barrancos are asked for.
-static bool gully(const Volcano *v, Landscape *land, double share, int steps, const Run *run,
-                  Error *e)
-{
-    return share <= 0.0 || volcano_cut_barrancos(v, land, share, steps, run, e);
-}
-
 // A grid's part in what rain does. Ash drinks all water but that of barrancos.
 static bool wear(const Volcano *v, Landscape *land, double share, int steps, bool finest,
                  const Run *run, Error *e)
 {
     bool ash = v->params.volcano.kind == VOLCANO_ASH;
     return (ash || weather(v, land, share, steps, run, e)) &&
-           gully(v, land, barranco_share(v, land, finest), steps, run, e);
+           volcano_cut_barrancos(v, land, volcano_find_barrancos(v, land, finest), steps, run, e);
 }
 
 // ---- the finest grid
@@ -342,7 +317,7 @@ static bool finish(Volcano *v, Landscape *land, const Run *run, Error *e)
     }
     set_weakness(v, land);
     return weather(v, land, 0.006 + 0.3 * age, 6, run, e) &&
-           gully(v, land, v->params.volcano.barrancos > 0 ? 0.3 : 0.0, 12, run, e);
+           volcano_cut_barrancos(v, land, 0.3, 12, run, e);
 }
 
 // ---- grids
@@ -392,7 +367,7 @@ Landscape *terrain_evolve_volcano(Terrain *terrain, const Run *run, Error *e)
     Volcano v = volcano_of(terrain);
     int most = v.params.resolution < v.params.evolution.cells ? v.params.resolution
                                                               : v.params.evolution.cells;
-    int cells = most < FIRST_CELLS ? most : FIRST_CELLS;
+    int cells = most < VOLCANO_FIRST_CELLS ? most : VOLCANO_FIRST_CELLS;
     Landscape *land = landscape_new(cells, v.size, terrain->strata, e);
     bool done = land && make_room(&v, land, e);
     if (done) {

@@ -11,7 +11,8 @@ typedef struct Vent {
     double radius; // m: of a scoria cone's foot
 } Vent;
 
-#define VOLCANO_STEEPEST 0.625 // 32 degrees: the upper flanks
+enum { VOLCANO_FIRST_CELLS = 256 }; // a side, of the coarsest grid
+#define VOLCANO_STEEPEST 0.625      // 32 degrees: the upper flanks
 
 typedef struct Volcano {
     const Terrain *terrain;
@@ -51,11 +52,14 @@ double volcano_half_radius(const Volcano *v);
 
 // volcano_barrancos.c
 
-// From barranco to barranco there, m.
-double volcano_barranco_spacing(const Volcano *v);
-// Grooves in which the first rain gathers.
-void volcano_groove(const Volcano *v, Landscape *land);
-// Rain cuts barrancos for a share of the cone's age, in steps; their walls fall to what ash bears.
+// volcano_barrancos.c
+
+// On the first grid that resolves barrancos, or the finest: grooves in which the first rain
+// gathers. Returns the share of their depth that is this grid's part; 0 before, and if none are
+// asked for.
+double volcano_find_barrancos(const Volcano *v, Landscape *land, bool finest);
+// Rain cuts a share of their depth in steps, and walls fall to what ash bears. Nothing if none are
+// asked for or the share is 0.
 bool volcano_cut_barrancos(const Volcano *v, Landscape *land, double share, int steps,
                            const Run *run, Error *e);
 

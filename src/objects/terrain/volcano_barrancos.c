@@ -29,9 +29,11 @@ typedef struct Grooves {
     uint64_t key;
 } Grooves;
 
-double volcano_barranco_spacing(const Volcano *v)
+// From one to the next at half the height, m; 0 = none are asked for.
+static double spacing(const Volcano *v)
 {
-    return TURN * volcano_half_radius(v) / v->params.volcano.barrancos;
+    int count = v->params.volcano.barrancos;
+    return count > 0 ? TURN * volcano_half_radius(v) / count : 0.0;
 }
 
 static void place(const Volcano *v, Grooves *g)
@@ -39,7 +41,7 @@ static void place(const Volcano *v, Grooves *g)
     g->upper = v->params.volcano.barrancos;
     g->count = g->upper + g->upper / 2;
     g->half = volcano_half_radius(v);
-    g->apart = volcano_barranco_spacing(v);
+    g->apart = spacing(v);
     g->key = random_key(v->terrain->seed, STREAM_BARRANCOS);
     for (int k = 0; k < g->count; k++) {
         uint64_t own = random_key(g->key, (uint64_t)k);
@@ -78,7 +80,7 @@ static double groove_depth(const Grooves *g, const Volcano *v, const Away *away)
     return deepest;
 }
 
-void volcano_groove(const Volcano *v, Landscape *land)
+static void groove(const Volcano *v, Landscape *land)
 {
     Grooves g;
     place(v, &g);
@@ -91,12 +93,28 @@ void volcano_groove(const Volcano *v, Landscape *land)
     }
 }
 
+double volcano_find_barrancos(const Volcano *v, Landscape *land, bool finest)
+{
+    const double seen = 5.0; // cells from one to the next
+    double cells = spacing(v) / land->cell;
+    bool resolved = cells >= seen, before = 0.5 * cells >= seen;
+    bool first = land->side <= VOLCANO_FIRST_CELLS + 1;
+    if ((resolved && (!before || first)) || (cells > 0.0 && finest && !resolved)) {
+        groove(v, land);
+        return 0.6;
+    }
+    return resolved ? 0.2 : 0.0;
+}
+
 bool volcano_cut_barrancos(const Volcano *v, Landscape *land, double share, int steps,
                            const Run *run, Error *e)
 {
     const double walls = 1.1; // tangent: of ash that is a little consolidated
+    if (!(share > 0.0) || v->params.volcano.barrancos <= 0) {
+        return true;
+    }
     const EvolutionParams *evolution = &v->params.evolution;
-    double half = volcano_half_radius(v), apart = volcano_barranco_spacing(v);
+    double half = volcano_half_radius(v), apart = spacing(v);
     double gathers = apart * (half - v->summit.rim) / 1.5; // m^2, of a barranco at half the height
     double depth = 0.6 * (double)v->params.volcano.age * apart;
     double incision = depth * (double)evolution->streams /
