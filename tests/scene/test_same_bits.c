@@ -98,6 +98,8 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"terrain: {resolution: 64, form: canyon}", 0x3693ad85da528da1},
         {"terrain: {resolution: 64, form: mesas, strata: {dip: 2}}", 0x36558167b5181d99},
         {"terrain: {resolution: 64, form: volcano}", 0x5770cb63e1adf7ff},
+        {"terrain: {resolution: 64, form: volcano, volcano: {kind: ash, barrancos: 20}}",
+         0x813c21fd3af17b4a},
         {"terrain: {resolution: 64, size: 1000, form: coast}", 0x5f1d9bb2418a7de5},
         {"terrain: {resolution: 64, form: karst, karst: {river: 300}}", 0x2aa5b91b516f4c15},
         {"terrain: {resolution: 64, form: hills}", 0x3bf18f2164575a9b},

@@ -77,31 +77,6 @@ static void prepare(const Badlands *b, Landscape *land, const Run *run)
     raise_strokes(b, land);
 }
 
-// Lumps of a few cells, which turn the water of even walls to each other: without them it would run
-// down side by side along the grid. They leave, or add, what they are.
-static void add_lumps(const Badlands *b, Landscape *land, double height, double wavelength,
-                      const Run *run)
-{
-    enum { AT_ONCE = 256 };
-    uint64_t key = random_key(random_key(b->terrain->seed, STREAM_LUMPS), (uint64_t)land->side);
-#pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
-    for (int row = 0; row < land->side; row++) {
-        float x[AT_ONCE], z[AT_ONCE], n[AT_ONCE];
-        for (int first = 0; first < land->side; first += AT_ONCE) {
-            int count = land->side - first < AT_ONCE ? land->side - first : AT_ONCE;
-            for (int k = 0; k < count; k++) {
-                x[k] = (float)((double)(first + k) * land->cell / wavelength);
-                z[k] = (float)((double)row * land->cell / wavelength);
-            }
-            sparse_noise_fractal_along(x, z, count, 2, 0.5f, 0.0f, key, n);
-            for (int k = 0; k < count; k++) {
-                int64_t i = (int64_t)row * land->side + first + k;
-                land->rock[i] += land->base[i] ? 0.0 : height * (double)n[k];
-            }
-        }
-    }
-}
-
 static void roughen(const Badlands *b, Landscape *land)
 {
     terrain_roughen(land, b->params.relief, 0.15 * (double)b->params.size, 1.6f,
@@ -116,7 +91,7 @@ static bool cut(Badlands *b, Landscape *land, double lifetime, int steps, const 
     double length = rill / TERRAIN_VALLEY_SPACING, soil = (double)b->params.evolution.soil;
     double creep = TERRAIN_INCISION * length * length * soil, time = lifetime / steps;
     b->rates.least_area = 2.0 * land->cell * land->cell;
-    add_lumps(b, land, 0.5 * land->cell, 7.0 * land->cell, run);
+    terrain_add_lumps(land, 0.5 * land->cell, 7.0 * land->cell, b->terrain->seed, run);
     for (int i = 0; i < steps; i++) {
         run_progress(run, "erosion", (double)i / steps);
         // Streams come last: they clear what has crept into them.
@@ -141,7 +116,7 @@ static bool cut_rills(Badlands *b, Landscape *land, const Run *run, Error *e)
     rates.least_area = 8.0 * land->cell * land->cell;
     double time = depth / (sqrt(drains) * landscape_erodibility(0.2) * rates.incision * STORMS);
     if (depth > 0.0) {
-        add_lumps(b, land, 0.15 * depth, CELLS_PER_RILL * land->cell, run);
+        terrain_add_lumps(land, 0.15 * depth, CELLS_PER_RILL * land->cell, b->terrain->seed, run);
     }
     for (int i = 0; depth > 0.0 && i < STORMS; i++) {
         run_progress(run, "rills", (double)i / STORMS);

@@ -45,7 +45,8 @@ enum {
     STREAM_DELTA = 87,
     STREAM_BASINS = 88,
     STREAM_LUMPS = 89,
-    STREAM_BLOCKS = 90
+    STREAM_BLOCKS = 90,
+    STREAM_BARRANCOS = 91
 };
 
 // The tree and everything derived from it.
@@ -307,6 +308,10 @@ void row_noise(const RowNoise *noise, const RowPart *part, float *n);
 // roughen.c: the low ground on which that begins: a twenty-fifth of the relief high, and up and
 // down by `bumps` of half of that. wavelength: m.
 void terrain_roughen(Landscape *land, float relief, double wavelength, float bumps, uint64_t key);
+// roughen.c: lumps of a few cells, which turn the water of even walls to each other: without them
+// it would run down side by side along the grid. They leave, or add, what they are.
+void terrain_add_lumps(Landscape *land, double height, double wavelength, uint64_t seed,
+                       const Run *run);
 
 // walls.c: couloirs and scree by erosion.debris; also what is loose then, to field->wetness.
 bool terrain_carve_walls(const Terrain *terrain, HeightField *field, const Run *run, Error *e);

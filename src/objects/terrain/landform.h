@@ -26,10 +26,16 @@ typedef struct AlpsParams {
     float wind;     // degrees from north, clockwise: where the wind comes from that drifts snow
 } AlpsParams;
 
-// A stratovolcano.
-enum { VOLCANO_MOST_CONES = 64 };
+// A stratovolcano, or a cone of ash alone.
+enum { VOLCANO_MOST_CONES = 64, VOLCANO_MOST_BARRANCOS = 200 };
+
+typedef enum VolcanoKind {
+    VOLCANO_STRATO, // tephra and lava in turn: concave flanks
+    VOLCANO_ASH     // one vent's ash and scoria at their angle of repose
+} VolcanoKind;
 
 typedef struct VolcanoParams {
+    VolcanoKind kind;
     float at[2];          // the summit's middle, shares of the size
     float crater;         // m, width of the crater's rim; 0 = by the relief
     float breach;         // 0 = a closed rim; 1 = a horseshoe that a collapse has left
@@ -39,7 +45,9 @@ typedef struct VolcanoParams {
     int cones;            // scoria cones on the flanks
     float wind;           // degrees from north, clockwise: where the wind comes from
     float age;            // 0 = active, 1 = long extinct, deeply dissected
+    int barrancos;        // radial gullies about the cone at half its height; 0 = as rain cuts them
 } VolcanoParams;
+
 // What makes the kinds of dunes: how many winds blow, and how much sand there is.
 typedef enum DuneKind {
     DUNE_BARCHAN,    // one wind, little sand

@@ -168,7 +168,12 @@ const Table alps_table = {.name = "alps",
                           .size = sizeof(AlpsParams),
                           .keys = ALPS_KEYS};
 
+static const EnumName VOLCANO_NAMES[] = {{"strato", VOLCANO_STRATO}, {"ash", VOLCANO_ASH}, {0}};
+
 static const Key VOLCANO_KEYS[] = {
+    {KEY_OF(VolcanoParams, kind, "kind", KEY_ENUM), .names = VOLCANO_NAMES,
+     .doc = "strato: tephra and lava in turn, with concave flanks; ash: a cone of one vent's ash "
+            "and scoria at their angle of repose, with straight flanks, without lava."},
     {KEY_OF(VolcanoParams, at, "at", KEY_VECTOR), .count = 2, .low = -0.4, .high = 0.4,
      .unit = "sizes",
      .doc = "The middle of the crater: x and z as fractions of the terrain's size."},
@@ -190,6 +195,11 @@ static const Key VOLCANO_KEYS[] = {
             "the lee."},
     {KEY_OF(VolcanoParams, age, "age", KEY_FLOAT), .high = 1,
      .doc = "0 = active, smooth under fresh tephra; 1 = long extinct, cut by deep gullies."},
+    {KEY_OF(VolcanoParams, barrancos, "barrancos", KEY_INT), .high = VOLCANO_MOST_BARRANCOS,
+     .doc = "Number of barrancos about the cone at half its height: gullies that radiate from the "
+            "rim, with ribs as sharp as a knife between them, and as deep as the age says, at 1 "
+            "as deep as they stand apart; more begin farther down. 0 = gullies as rain finds its "
+            "way."},
     {0},
 };
 

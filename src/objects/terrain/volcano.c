@@ -14,8 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_CELLS = 256, STAGES = 16, STAGE_FLOWS = 3 };
-static const double STEEPEST = 0.625; // 32 degrees: the upper flanks
+enum { STAGES = 16, STAGE_FLOWS = 3 };
 
 static Volcano volcano_of(const Terrain *terrain)
 {
@@ -235,7 +234,8 @@ static bool grow(Volcano *v, Landscape *land, const Run *run, Error *e)
         if (sinks) { // a smaller cone grows within
             volcano_sink_caldera(v, land);
             v->fall = 0.4 * (double)v->params.volcano.caldera;
-            v->relief = volcano_ring(v, land, 0.5 * v->params.volcano.caldera) + STEEPEST * v->fall;
+            v->relief =
+                volcano_ring(v, land, 0.5 * v->params.volcano.caldera) + VOLCANO_STEEPEST * v->fall;
             v->relief = v->relief < relief ? v->relief : relief;
         }
         if (!grow_stage(v, land, stage, run, e)) {
@@ -245,6 +245,25 @@ static bool grow(Volcano *v, Landscape *land, const Run *run, Error *e)
     v->relief = relief;
     v->fall = fall;
     return true;
+}
+
+// The cone as it was built, before rain has cut it.
+static bool pile(Volcano *v, Landscape *land, const Run *run, Error *e)
+{
+    if (v->params.volcano.kind == VOLCANO_ASH) {
+        volcano_heap_ash(v, land);
+        return true;
+    }
+    return grow(v, land, run, e);
+}
+
+// A grid's part in what rain does. Ash drinks all water but that of barrancos.
+static bool wear(const Volcano *v, Landscape *land, double share, int steps, bool finest,
+                 const Run *run, Error *e)
+{
+    bool ash = v->params.volcano.kind == VOLCANO_ASH;
+    return (ash || weather(v, land, share, steps, run, e)) &&
+           volcano_cut_barrancos(v, land, volcano_find_barrancos(v, land, finest), steps, run, e);
 }
 
 // ---- the finest grid
@@ -279,6 +298,9 @@ static void redden(Volcano *v, const Landscape *land)
 // What gives the surface its last form.
 static bool finish(Volcano *v, Landscape *land, const Run *run, Error *e)
 {
+    if (v->params.volcano.kind == VOLCANO_ASH) {
+        return volcano_breach(v, land, run, e);
+    }
     double age = (double)v->params.volcano.age;
     bool breached = v->params.volcano.breach > 0.0f;
     volcano_open_crater(v, land);
@@ -294,7 +316,8 @@ static bool finish(Volcano *v, Landscape *land, const Run *run, Error *e)
         volcano_open_crater(v, land);
     }
     set_weakness(v, land);
-    return weather(v, land, 0.006 + 0.3 * age, 6, run, e);
+    return weather(v, land, 0.006 + 0.3 * age, 6, run, e) &&
+           volcano_cut_barrancos(v, land, 0.3, 12, run, e);
 }
 
 // ---- grids
@@ -344,7 +367,7 @@ Landscape *terrain_evolve_volcano(Terrain *terrain, const Run *run, Error *e)
     Volcano v = volcano_of(terrain);
     int most = v.params.resolution < v.params.evolution.cells ? v.params.resolution
                                                               : v.params.evolution.cells;
-    int cells = most < FIRST_CELLS ? most : FIRST_CELLS;
+    int cells = most < VOLCANO_FIRST_CELLS ? most : VOLCANO_FIRST_CELLS;
     Landscape *land = landscape_new(cells, v.size, terrain->strata, e);
     bool done = land && make_room(&v, land, e);
     if (done) {
@@ -352,15 +375,15 @@ Landscape *terrain_evolve_volcano(Terrain *terrain, const Run *run, Error *e)
         open_border(land);
         volcano_find_weakness(&v, land, run);
         set_weakness(&v, land);
-        done = grow(&v, land, run, e);
+        done = pile(&v, land, run, e);
     }
     double share = 0.10 + 0.35 * (double)v.params.volcano.age;
-    done = done && weather(&v, land, share, 16, run, e);
+    done = done && wear(&v, land, share, 16, cells >= most, run, e);
     while (done && cells < most) {
         land = refine(&v, land, run, e);
         cells *= 2;
         share *= 0.5;
-        done = land && weather(&v, land, share, 12, run, e);
+        done = land && wear(&v, land, share, 12, cells >= most, run, e);
     }
     done = done && finish(&v, land, run, e) && (terrain->ground = ground_of(&v, land, e));
     clear(&v);

@@ -11,6 +11,9 @@ typedef struct Vent {
     double radius; // m: of a scoria cone's foot
 } Vent;
 
+enum { VOLCANO_FIRST_CELLS = 256 }; // a side, of the coarsest grid
+#define VOLCANO_STEEPEST 0.625      // 32 degrees: the upper flanks
+
 typedef struct Volcano {
     const Terrain *terrain;
     TerrainParams params; // resolved
@@ -30,7 +33,7 @@ typedef struct Volcano {
 // The distance over which tephra gets thinner by e, for flanks of 32 degrees below the rim.
 static inline double volcano_fall(const TerrainParams *resolved)
 {
-    return (double)resolved->relief / 0.625;
+    return (double)resolved->relief / VOLCANO_STEEPEST;
 }
 
 // Distance and direction from a vent.
@@ -41,6 +44,24 @@ Away volcano_away(const Landscape *land, const Vent *vent, int64_t i);
 
 // volcano_rock.c: fills v->weakness: what differs from place to place.
 void volcano_find_weakness(Volcano *v, const Landscape *land, const Run *run);
+
+// volcano_ash.c: a cone of ash on the plain, its flanks at repose, its rim lower here than there.
+void volcano_heap_ash(const Volcano *v, Landscape *land);
+// Radius at which the cone has half its height, m.
+double volcano_half_radius(const Volcano *v);
+
+// volcano_barrancos.c
+
+// volcano_barrancos.c
+
+// On the first grid that resolves barrancos, or the finest: grooves in which the first rain
+// gathers. Returns the share of their depth that is this grid's part; 0 before, and if none are
+// asked for.
+double volcano_find_barrancos(const Volcano *v, Landscape *land, bool finest);
+// Rain cuts a share of their depth in steps, and walls fall to what ash bears. Nothing if none are
+// asked for or the share is 0.
+bool volcano_cut_barrancos(const Volcano *v, Landscape *land, double share, int steps,
+                           const Run *run, Error *e);
 
 // volcano_vent.c: tephra, craters, scoria cones, sector collapse, caldera.
 
