@@ -170,6 +170,7 @@ const Table alps_table = {.name = "alps",
 
 static const EnumName VOLCANO_NAMES[] = {{"strato", VOLCANO_STRATO}, {"ash", VOLCANO_ASH}, {0}};
 
+enum { STRATO_ONLY = 1u << VOLCANO_STRATO };
 static const Key VOLCANO_KEYS[] = {
     {KEY_OF(VolcanoParams, kind, "kind", KEY_ENUM), .names = VOLCANO_NAMES,
      .doc = "strato: tephra and lava in turn, with concave flanks; ash: a cone of one vent's ash "
@@ -185,10 +186,12 @@ static const Key VOLCANO_KEYS[] = {
     {KEY_OF(VolcanoParams, breach_azimuth, "breach_azimuth", KEY_FLOAT), .low = -360, .high = 360,
      .unit = "degrees", .doc = "Direction in which it slid, clockwise from north (-z)."},
     {KEY_OF(VolcanoParams, caldera, "caldera", KEY_FLOAT), .high = 1e5, .unit = "m",
+     .kinds = STRATO_ONLY,
      .doc = "Radius of a caldera, in which a smaller cone has grown; 0 = none."},
-    {KEY_OF(VolcanoParams, flows, "flows", KEY_INT), .high = 200,
+    {KEY_OF(VolcanoParams, flows, "flows", KEY_INT), .high = 200, .kinds = STRATO_ONLY,
      .doc = "Number of young lava flows, from the rim, the flanks and the feet of the cones."},
     {KEY_OF(VolcanoParams, cones, "cones", KEY_INT), .high = VOLCANO_MOST_CONES,
+     .kinds = STRATO_ONLY,
      .doc = "Number of scoria cones on the flanks, most along two fissures."},
     {KEY_OF(VolcanoParams, wind, "wind", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
      .doc = "Where the wind comes from, clockwise from north (-z): tephra falls and snow drifts to "
@@ -205,8 +208,8 @@ static const Key VOLCANO_KEYS[] = {
 
 const Table volcano_table = {
     .name = "volcano",
-    .doc = "A stratovolcano: layers of tephra, flows of lava, gullies. The "
-           "relief is the height of its rim above the plain.",
+    .doc = "A volcano: layers of tephra, flows of lava, gullies, or a cone of ash. The relief is "
+           "the height of its rim above the plain.",
     .example = "objects:\n"
                "  - name: cone\n"
                "    terrain:\n"
@@ -215,7 +218,9 @@ const Table volcano_table = {
                "      relief: 2000\n"
                "      volcano: {breach: 0.6, breach_azimuth: 20, cones: 8}\n",
     .size = sizeof(VolcanoParams),
-    .keys = VOLCANO_KEYS};
+    .keys = VOLCANO_KEYS,
+    .kind_key = "kind",
+};
 static const EnumName DUNE_NAMES[] = {{"barchan", DUNE_BARCHAN},
                                       {"transverse", DUNE_TRANSVERSE},
                                       {"linear", DUNE_LINEAR},

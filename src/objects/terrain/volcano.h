@@ -52,8 +52,6 @@ double volcano_half_radius(const Volcano *v);
 
 // volcano_barrancos.c
 
-// volcano_barrancos.c
-
 // On the first grid that resolves barrancos, or the finest: grooves in which the first rain
 // gathers. Returns the share of their depth that is this grid's part; 0 before, and if none are
 // asked for.
