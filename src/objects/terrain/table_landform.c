@@ -191,8 +191,7 @@ static const Key VOLCANO_KEYS[] = {
     {KEY_OF(VolcanoParams, flows, "flows", KEY_INT), .high = 200, .kinds = STRATO_ONLY,
      .doc = "Number of young lava flows, from the rim, the flanks and the feet of the cones."},
     {KEY_OF(VolcanoParams, cones, "cones", KEY_INT), .high = VOLCANO_MOST_CONES,
-     .kinds = STRATO_ONLY,
-     .doc = "Number of scoria cones on the flanks, most along two fissures."},
+     .kinds = STRATO_ONLY, .doc = "Number of scoria cones on the flanks, most along two fissures."},
     {KEY_OF(VolcanoParams, wind, "wind", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
      .doc = "Where the wind comes from, clockwise from north (-z): tephra falls and snow drifts to "
             "the lee."},
