@@ -360,8 +360,8 @@ float lamp_field_around(const LampField *field, Vec3 p)
         return field ? luminance(mean) : 0.0f;
     }
     const LampBox *box = &field->box;
-    Vec3 half = vec3_scale(
-        vec3((float)box->count[0], (float)box->count[1], (float)box->count[2]), 0.5f * box->voxel);
+    Vec3 half = vec3_scale(vec3((float)box->count[0], (float)box->count[1], (float)box->count[2]),
+                           0.5f * box->voxel);
     Vec3 middle = vec3_add(box->low, half), away = vec3_sub(p, middle);
     Vec3 near = vec3(clampf(away.x, -half.x, half.x), clampf(away.y, -half.y, half.y),
                      clampf(away.z, -half.z, half.z));

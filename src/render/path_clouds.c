@@ -69,8 +69,9 @@ static float lit_by_lamps(const Tracer *tracer, Vec3 p)
     return lamps / fmaxf(lamps + lights_mean_above(tracer->lights), 1e-30f);
 }
 
-// The most of it on a camera ray's way into a cloud from p, as far as what is seen comes from: light
-// that has forgotten its direction dims over transport mean free paths, 1 / (0.14 extinction).
+// The most of it on a camera ray's way into a cloud from p, as far as what is seen comes from:
+// light that has forgotten its direction dims over transport mean free paths, 1 / (0.14
+// extinction).
 static float lit_from_within(const Tracer *tracer, Vec3 p, Vec3 direction)
 {
     enum { STEPS = 8 };

@@ -365,7 +365,8 @@ static void what_glows_from_within_has_no_form(void **state)
         double dark = normals_at(place[k], 1e-9f), lit = normals_at(place[k], 1e6f);
         assert_true(dark > 1.0);
         if (!(lit < 0.05 * dark)) {
-            fail_msg("at %g m: normals of %.3g, without the lamp %.3g", (double)place[k], lit, dark);
+            fail_msg("at %g m: normals of %.3g, without the lamp %.3g", (double)place[k], lit,
+                     dark);
         }
     }
 }
