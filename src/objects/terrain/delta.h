@@ -43,6 +43,11 @@ float delta_creeks_cut(const DeltaLand *land, Vec2 at, float ground, float level
 
 // delta_stir.c: fills land->fine_load. amount: 0..1.
 bool delta_stir(DeltaLand *land, float amount, uint64_t seed, const Run *run, Error *e);
+// What is left of the mud where it flocculates in salt water and sinks, the thinner the more.
+static inline float delta_settled(float load)
+{
+    return load * load * (1.7f - 0.7f * load);
+}
 float delta_stirred_at(const DeltaLand *land, Vec2 at);
 
 // delta_land.c: what the grid's cells tell, of a model that has run.

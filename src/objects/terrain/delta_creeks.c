@@ -86,7 +86,8 @@ static void open_ponds(Marsh *m)
 
 bool delta_creeks_grow(DeltaLand *land, float density, uint64_t seed, const Run *run, Error *e)
 {
-    const float spread = 0.9f; // cells: the root of the area that the smallest drains, at density 1
+    const float spread =
+        0.62f; // cells: the root of the area that the smallest drains, at density 1
     int columns = land->model->columns * FINE + 1, rows = land->model->rows * FINE + 1;
     int64_t count = (int64_t)columns * rows;
     Marsh m = {land,
@@ -108,7 +109,7 @@ bool delta_creeks_grow(DeltaLand *land, float density, uint64_t seed, const Run 
                             .ground = m.ground,
                             .cost = m.cost,
                             .least = root * root,
-                            .width = 0.13f * FINE,
+                            .width = 0.12f * FINE,
                             .most = 1.1f * FINE};
         land->creeks = creeks_grow(&plain, e);
     }
@@ -130,7 +131,7 @@ float delta_creeks_cut(const DeltaLand *land, Vec2 at, float ground, float level
     }
     float width = half / FINE * (float)land->model->cell; // m, half of it
     float deep = fminf(steep * width, deepest * depth);
-    float dry = 0.10f * depth * smoothstepf(0.16f, 0.05f, half / FINE);
+    float dry = 0.10f * depth * smoothstepf(0.13f, 0.05f, half / FINE);
     float squared = side * side, bank = 0.4f * squared + 0.6f * squared * squared - 1.0f;
     float bed = level + dry + deep * bank;
     return fminf(ground, bed);

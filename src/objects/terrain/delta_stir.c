@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FINE = 6, STEPS = 34, SHELTER = 4 }; // samples a cell; steps back; cells
+enum { FINE = 6, STEPS = 34, SHELTER = 3 }; // samples a cell; steps back; cells
 
 static const float STEP = 0.5f; // cells
 
@@ -81,13 +81,30 @@ static float stirred_load(const Stir *s, Vec2 at)
     uint64_t key = random_key(s->seed, 11);
     float broad = noise_plane_fractal(origin.x / 5.0f, origin.y / 5.0f, 2, key);
     float ribbon = noise_plane_fractal(origin.x / 1.3f, origin.y / 1.3f, 4, random_key(key, 1));
-    load = fminf(load, 1.0f) * (1.0f + s->amount * (0.7f * broad + 0.6f * ribbon - 0.25f));
+    load = fminf(load, 1.0f) * (1.0f + s->amount * (0.55f * broad + 0.55f * ribbon - 0.12f));
     load = clampf(load, 0.0f, 1.0f);
+    load = lerpf(load, delta_settled(load), s->amount);
     float levee = delta_land_at(land, land->levee, at.x, at.y);
-    float shelter = delta_land_at(land, s->shelter, at.x, at.y);
+    float shelter = delta_land_at(land, s->shelter, stirred.x, stirred.y) + 0.12f * ribbon;
     float peat =
         s->amount * smoothstepf(0.42f, 0.72f, shelter) * (1.0f - smoothstepf(0.25f, 0.9f, levee));
     return lerpf(load, 2.0f, peat);
+}
+
+// Over a square.
+static float mean_about(const Delta *d, const float *field, int64_t i)
+{
+    int64_t column = delta_column(d, i), row = delta_row(d, i), count = 0;
+    float sum = 0.0f;
+    for (int64_t r = row - SHELTER; r <= row + SHELTER; r++) {
+        for (int64_t c = column - SHELTER; c <= column + SHELTER; c++) {
+            if (c >= 0 && r >= 0 && c < d->columns && r < d->rows) {
+                sum += field[r * d->columns + c];
+                count++;
+            }
+        }
+    }
+    return sum / (float)count;
 }
 
 static bool is_land(const Delta *d, int64_t i)
@@ -96,23 +113,22 @@ static bool is_land(const Delta *d, int64_t i)
            (d->kind[i] == DELTA_OPEN && d->level[i] - d->bed[i] <= DELTA_FALL * d->depth);
 }
 
-// Means over squares.
-static float *find_shelter(const Delta *d, Error *e)
+// Means over squares of means over squares.
+static bool find_shelter(const Delta *d, float *shelter, Error *e)
 {
-    float *shelter = memory_alloc(delta_count(d), sizeof *shelter, e);
-    for (int64_t i = 0; shelter && i < delta_count(d); i++) {
-        int64_t column = delta_column(d, i), row = delta_row(d, i), land = 0, all = 0;
-        for (int64_t r = row - SHELTER; r <= row + SHELTER; r++) {
-            for (int64_t c = column - SHELTER; c <= column + SHELTER; c++) {
-                if (c >= 0 && r >= 0 && c < d->columns && r < d->rows) {
-                    land += is_land(d, r * d->columns + c);
-                    all++;
-                }
-            }
-        }
-        shelter[i] = (float)land / (float)all;
+    float *own = memory_alloc(delta_count(d), sizeof *own, e);
+    for (int64_t i = 0; own && i < delta_count(d); i++) {
+        shelter[i] = is_land(d, i) ? 1.0f : 0.0f;
     }
-    return shelter;
+    for (int n = 0; own && n < 2; n++) {
+        memcpy(own, shelter, (size_t)delta_count(d) * sizeof *own);
+        for (int64_t i = 0; i < delta_count(d); i++) {
+            shelter[i] = mean_about(d, own, i);
+        }
+    }
+    bool done = own;
+    free(own);
+    return done;
 }
 
 bool delta_stir(DeltaLand *land, float amount, uint64_t seed, const Run *run, Error *e)
@@ -120,9 +136,10 @@ bool delta_stir(DeltaLand *land, float amount, uint64_t seed, const Run *run, Er
     land->fine_columns = land->model->columns * FINE + 1;
     land->fine_rows = land->model->rows * FINE + 1;
     int64_t count = (int64_t)land->fine_columns * land->fine_rows;
-    float *shelter = find_shelter(land->model, e);
+    float *shelter = memory_alloc(delta_count(land->model), sizeof *shelter, e);
     land->fine_load = shelter ? memory_alloc(count, sizeof(float), e) : NULL;
-    if (land->fine_load) {
+    bool done = land->fine_load && find_shelter(land->model, shelter, e);
+    if (done) {
         Stir s = {land, shelter, amount, seed};
 #pragma omp parallel for schedule(dynamic, 4) num_threads(run->threads)
         for (int row = 0; row < land->fine_rows; row++) {
@@ -135,7 +152,7 @@ bool delta_stir(DeltaLand *land, float amount, uint64_t seed, const Run *run, Er
         }
     }
     free(shelter);
-    return land->fine_load;
+    return done;
 }
 
 // Bilinear.

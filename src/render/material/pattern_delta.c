@@ -35,10 +35,10 @@ static Ground mud(const SurfacePoint *point, const Marsh *at, Vec3 color)
     float run = smoothstepf(0.16f, 0.02f, fabsf(net.value + 0.15f * sheets.value));
     float dry = smoothstepf(1.0f, 0.86f, at->damp + 0.07f * sheets.value);
     const Vec3 film = {0.082f, 0.079f, 0.034f};
-    Ground g = {.color = vec3_scale(color, lerpf(0.62f, 1.5f, dry))};
+    Ground g = {.color = vec3_scale(color, lerpf(0.55f, 1.2f, dry))};
     g.color = vec3_lerp(g.color, film, 0.55f * stand(at->patch - 0.4f * dry, 0.12f));
     g.color = vec3_scale(g.color, 1.0f + 0.20f * clampf(sheets.value, -1.2f, 1.2f));
-    g.color = vec3_scale(g.color, 1.0f - 0.38f * run * (1.0f - 0.5f * dry));
+    g.color = vec3_scale(g.color, 1.0f - 0.34f * run * (1.0f - 0.6f * dry));
     g.slope = vec3_madd(vec3_scale(sheets.slope, 0.08f), -0.05f, net.slope);
     return g;
 }
@@ -47,7 +47,7 @@ static Ground mud(const SurfacePoint *point, const Marsh *at, Vec3 color)
 static Ground pioneers(const SurfacePoint *point, const Marsh *at, Ground ground)
 {
     const float size = 11.0f;
-    const Vec3 cordgrass = {0.094f, 0.098f, 0.036f}, glasswort = {0.128f, 0.066f, 0.040f};
+    const Vec3 cordgrass = {0.070f, 0.074f, 0.034f}, glasswort = {0.092f, 0.062f, 0.042f};
     Vec3 p = vec3_scale(point->object_position, 1.0f / size);
     CellPoint cell = noise_cells_on(vec3(p.x, 0.5f, p.z), vec3(0, 1, 0), SEED_SWARD + 50);
     float own = noise_unit(cell.cell, 2), radius = 0.10f + 0.42f * own * own;
@@ -56,7 +56,7 @@ static Ground pioneers(const SurfacePoint *point, const Marsh *at, Ground ground
     float disc = seen * smoothstepf(-0.03f, 0.03f, radius * (1.0f + 0.4f * at->tuft) - away);
     float red = stand(0.8f * at->patch + 0.5f * at->tuft, 0.16f);
     Ground g = ground;
-    g.color = vec3_lerp(g.color, glasswort, 0.65f * red);
+    g.color = vec3_lerp(g.color, glasswort, 0.7f * red);
     g.color = vec3_lerp(g.color, vec3_scale(cordgrass, 0.8f + 0.5f * noise_unit(cell.cell, 4)),
                         0.9f * disc);
     return g;
@@ -73,9 +73,9 @@ static Ground sedge(const SurfacePoint *point, const Marsh *at, const Vec3 tone[
     g.color = vec3_lerp(g.color, tone[2], 0.75f * stand(other - 0.8f * at->broad, 0.34f));
     g.color = vec3_lerp(g.color, tone[3], 0.75f * stand(-other - 0.7f * beds, 0.36f));
     float mottle = 0.16f * clampf(other, -1.0f, 1.0f) + 0.14f * clampf(beds, -1.0f, 1.0f) +
-                   0.36f * clampf(tufts.value, -1.2f, 1.2f);
+                   0.65f * clampf(tufts.value, -0.9f, 0.9f);
     g.color = vec3_scale(g.color, 1.0f + mottle);
-    g.slope = vec3_scale(tufts.slope, 0.3f);
+    g.slope = vec3_scale(tufts.slope, 0.45f);
     return g;
 }
 
@@ -84,7 +84,7 @@ static Ground sedge(const SurfacePoint *point, const Marsh *at, const Vec3 tone[
 static Ground low_marsh(const Material *m, const SurfacePoint *point, const Marsh *at)
 {
     const Vec3 tone[4] = {vec3_scale(m->color2, 0.92f),
-                          {0.094f, 0.088f, 0.044f},
+                          {0.084f, 0.079f, 0.046f},
                           {0.046f, 0.048f, 0.024f},
                           {0.098f, 0.070f, 0.042f}};
     return sedge(point, at, tone, SEED_SWARD);
@@ -92,7 +92,7 @@ static Ground low_marsh(const Material *m, const SurfacePoint *point, const Mars
 
 static Ground high_marsh(const Material *m, const SurfacePoint *point, const Marsh *at)
 {
-    const Vec3 tone[4] = {{0.104f, 0.090f, 0.050f},
+    const Vec3 tone[4] = {{0.094f, 0.082f, 0.051f},
                           vec3_scale(m->color2, 0.80f),
                           {0.148f, 0.124f, 0.076f},
                           {0.072f, 0.054f, 0.035f}};
@@ -151,7 +151,7 @@ static Vec3 body_color(Vec3 sea, Vec3 silt, float load)
 // Mud that settles leaves water brown and clear, with peat.
 static Vec3 peat_color(Vec3 silt, float peat)
 {
-    const Vec3 steeped = {0.016f, 0.013f, 0.008f};
+    const Vec3 steeped = {0.020f, 0.017f, 0.010f};
     return vec3_lerp(silt, steeped, smoothstepf(0.0f, 0.85f, peat));
 }
 
@@ -159,7 +159,8 @@ static Vec3 peat_color(Vec3 silt, float peat)
 // that in the river; above 1, the more peat instead of mud, up to 2.
 void pattern_silt(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    float depth = point->site.x / fmaxf(1.0f - point->site.x, 0.02f), load = fminf(point->site.y, 1.0f);
+    float depth = point->site.x / fmaxf(1.0f - point->site.x, 0.02f),
+          load = fminf(point->site.y, 1.0f);
     float peat = fmaxf(point->site.y - 1.0f, 0.0f);
     PatternOctaves drift = pattern_octaves(point, 260.0f, 7, 0.6f, 1.0f, SEED_WATER);
     PatternOctaves fine = pattern_octaves(point, 70.0f, 4, 0.6f, 1.0f, SEED_WATER + 9);
@@ -172,6 +173,7 @@ void pattern_silt(const Material *m, const SurfacePoint *point, PatternShade *sh
     float clear = 0.35f + 1.3f * (1.0f - load) * (1.0f - load); // m: depth that dims the bed to 1/e
     Vec3 bed = vec3_lerp(vec3(0.118f, 0.097f, 0.062f), vec3(0.076f, 0.074f, 0.038f),
                          smoothstepf(-0.3f, 0.4f, drift.value + 0.4f * fine.value));
+    bed = vec3_scale(bed, 1.0f - 0.66f * peat); // ooze
     float seen = expf(-depth / clear);
     shade->color = vec3_lerp(body, bed, 0.8f * seen);
     float ruffled = smoothstepf(-0.4f, 0.6f, drift.value);
