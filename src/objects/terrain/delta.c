@@ -117,14 +117,17 @@ bool terrain_grow_delta(Terrain *terrain, const Run *run, Error *e)
     if (!lay_ground(land, &p, terrain->seed, e) || !delta_run(d, &rates, (int64_t)steps, run, e)) {
         return false;
     }
-    return delta_land_finish(land, steps, e);
+    float creeks = p.delta.creeks, stirred = p.delta.stirred;
+    return delta_land_finish(land, steps, e) &&
+           (creeks <= 0.0f || delta_creeks_grow(land, creeks, random_key(d->seed, 1), run, e)) &&
+           (stirred <= 0.0f || delta_stir(land, stirred, random_key(d->seed, 2), run, e));
 }
 
 // ---- a place
 
-// Quadratic B-spline: the mean around a place, smooth at all places. u and v in cells.
-static float smooth_at(const Delta *d, const float *field, float u, float v)
+float delta_land_at(const DeltaLand *land, const float *field, float u, float v)
 {
+    const Delta *d = land->model;
     int column = (int)floorf(u), row = (int)floorf(v);
     float s = u - (float)column - 0.5f, t = v - (float)row - 0.5f, sum = 0.0f;
     float across[3] = {0.5f * (0.5f - s) * (0.5f - s), 0.75f - s * s,
@@ -163,6 +166,9 @@ static float relief(const Terrain *terrain, Vec2 at, float above, float levee)
     float height = (0.055f * rough + 0.06f * broad) * (0.25f + 0.75f * low);
     float bank = smoothstepf(-0.08f, 0.02f, above) * levee * levee;
     height += (float)CREST * bank * (1.0f + 0.8f * rough);
+    if (terrain->delta->creeks) {
+        return height;
+    }
     // Creeks wind where two levels of noise meet.
     float line = fabsf(noise_plane_fractal(at.x / 4.5f, at.y / 4.5f, 5, random_key(key, 2)));
     float width = 0.035f * clampf(1.0f - levee, 0.0f, 1.0f);
@@ -173,14 +179,14 @@ static float relief(const Terrain *terrain, Vec2 at, float above, float levee)
 void terrain_sample_delta(const Terrain *terrain, HeightField *field, int64_t i, float x, float z)
 {
     const DeltaLand *land = terrain->delta;
-    const Delta *d = land->model;
-    float depth = (float)d->depth;
+    float depth = (float)land->model->depth;
     Vec2 at = moved(terrain, x, z, 1.3f);
-    float ground = smooth_at(d, land->ground, at.x, at.y);
-    float level = smooth_at(d, land->level, at.x, at.y);
-    float levee = smooth_at(d, land->levee, at.x, at.y);
-    float age = smooth_at(d, land->age, at.x, at.y);
+    float ground = delta_land_at(land, land->ground, at.x, at.y);
+    float level = delta_land_at(land, land->level, at.x, at.y);
+    float levee = delta_land_at(land, land->levee, at.x, at.y);
+    float age = delta_land_at(land, land->age, at.x, at.y);
     ground += depth * relief(terrain, at, (ground - level) / depth, levee);
+    ground = land->creeks ? delta_creeks_cut(land, at, ground, level) : ground;
     float above = (ground - level) / depth;
     field->height[i] = ground;
     field->water[i] = above < 0.35f ? level : -INFINITY;
@@ -193,8 +199,11 @@ void terrain_sample_delta(const Terrain *terrain, HeightField *field, int64_t i,
 float terrain_delta_load(const Terrain *terrain, float x, float z)
 {
     const DeltaLand *land = terrain->delta;
+    if (land->fine_load) {
+        return delta_stirred_at(land, moved(terrain, x, z, 1.3f));
+    }
     Vec2 at = moved(terrain, x, z, 2.2f);
-    return clampf(smooth_at(land->model, land->load, at.x, at.y), 0.0f, 1.0f);
+    return clampf(delta_land_at(land, land->load, at.x, at.y), 0.0f, 1.0f);
 }
 
 // Every sample that the shores or shoals touch is a vertex.

@@ -18,6 +18,10 @@ void delta_land_free(DeltaLand *land)
     free(land->levee);
     free(land->age);
     free(land->load);
+    free(land->way_x);
+    free(land->way_z);
+    free(land->fine_load);
+    creeks_free(land->creeks);
     free(land);
 }
 
@@ -207,7 +211,8 @@ static bool run_out(DeltaLand *land, const uint8_t *known, Error *e)
     const float mixing = 0.16f, left = 0.97f; // a cell of its way
     const Delta *d = land->model;
     int64_t count = delta_count(d);
-    float *x = memory_alloc(count, sizeof *x, e), *z = memory_alloc(count, sizeof *z, e);
+    float *x = land->way_x = memory_alloc(count, sizeof *x, e);
+    float *z = land->way_z = memory_alloc(count, sizeof *z, e);
     float *next = memory_alloc(count, sizeof *next, e);
     bool done = x && z && next && find_ways(land, known, x, z, e);
     for (int n = 0; done && n < d->columns; n++) {
@@ -225,8 +230,6 @@ static bool run_out(DeltaLand *land, const uint8_t *known, Error *e)
         }
         memcpy(land->load, next, (size_t)count * sizeof *next);
     }
-    free(x);
-    free(z);
     free(next);
     return done;
 }

@@ -131,12 +131,14 @@ typedef struct MeanderParams {
 
 // A river that enters a shallow sea.
 typedef struct DeltaParams {
-    float width; // m, of the river; 0 = a fortieth of the size
-    float depth; // m, of the river and of the sea; 0 = by the river's width
-    float sand;  // share of what it brings
-    float age;   // what it has brought: 1 = the delta reaches the middle of the square and beyond
-    float rise;  // of the sea meanwhile, share of its depth
-    float plain; // width of the old land, share of the size
+    float width;   // m, of the river; 0 = a fortieth of the size
+    float depth;   // m, of the river and of the sea; 0 = by the river's width
+    float sand;    // share of what it brings
+    float age;     // what it has brought: 1 = the delta reaches the middle of the square and beyond
+    float rise;    // of the sea meanwhile, share of its depth
+    float plain;   // width of the old land, share of the size
+    float creeks;  // density of those that drain the marsh; 0 = shallow ones by noise alone
+    float stirred; // how much eddies and the flow stir what the water carries
 } DeltaParams;
 
 // How the land evolves; factors on the landform's own rates.

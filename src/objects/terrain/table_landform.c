@@ -486,6 +486,14 @@ static const Key DELTA_KEYS[] = {
             "and ponds."},
     {KEY_OF(DeltaParams, plain, "plain", KEY_FLOAT), .low = 0.08, .high = 0.4, .unit = "sizes",
      .doc = "Width of the old land in the north (-z), through which the river comes."},
+    {KEY_OF(DeltaParams, creeks, "creeks", KEY_FLOAT), .high = 1,
+     .doc =
+         "Creeks that drain the marsh at ebb: trees of them branch from the channels and the sea "
+         "into the land, down to a fortieth of the river's width. 1 = many; 0 = none but hollows."},
+    {KEY_OF(DeltaParams, stirred, "stirred", KEY_FLOAT), .high = 1,
+     .doc =
+         "How much the water is stirred: eddies curl the plumes at the mouths, mud is drawn out in "
+         "ribbons along the flow, and ponds and dead arms in the marsh are dark with peat."},
     {0},
 };
 
