@@ -5,7 +5,7 @@ import math
 import struct
 import zlib
 
-WIDE, HIGH = 256, 128
+WIDE, HIGH = 512, 256
 LOW, SIZE = (-0.53, -0.205), (1.03, 0.4203)  # of the mesh's box, x and y
 
 
@@ -19,12 +19,14 @@ def mix(a, b, t):
 
 
 def colour(x, y):
-    body = mix((1.0, 0.97, 0.9), (0.72, 0.6, 0.62), smooth(-0.06, 0.12, y))
-    body = mix((1.0, 1.0, 1.0), body, smooth(-0.12, -0.02, y))
+    body = mix((1.0, 0.97, 0.9), (0.66, 0.46, 0.42), smooth(-0.05, 0.1, y))
+    body = mix((0.95, 1.0, 1.0), body, smooth(-0.12, -0.01, y))
     fins = smooth(0.115, 0.15, abs(y + 0.01)) if x > -0.3 else smooth(-0.36, -0.42, x)
-    body = mix(body, (1.0, 0.86, 0.75), fins)
-    scale = 0.5 + 0.5 * math.sin(150 * x + 3 * math.sin(90 * y)) * math.sin(130 * y)
-    body = mix(body, tuple(0.86 * c for c in body), scale * (1 - fins))
+    ray = math.sin(300 * (x + 0.5 * abs(y))) if x > -0.3 else math.sin(60 * math.atan2(y, x + 0.22))
+    body = mix(body, tuple((0.8 + 0.2 * ray) * c for c in (1.0, 0.8, 0.62)), fins)
+    row = 44 * y + 0.5 * math.floor(48 * x)  # rows of scales, each darker at its rim
+    rim = math.hypot(48 * x % 1 - 0.75, row % 1 - 0.5)
+    body = mix(body, tuple(0.66 * c for c in body), smooth(0.35, 0.75, rim) * (1 - fins) * (1 - smooth(0.22, 0.28, x)))
     streak = abs((y + 0.005) - 0.22 * (x - 0.37))  # from the eye to below the breast fin
     body = mix(body, (0.62, 0.42, 0.85), 0.8 * (1 - smooth(0.006, 0.014, streak)) * smooth(0.14, 0.2, x) * (1 - smooth(0.36, 0.4, x)))
     gill = abs(math.hypot(x - 0.37, y) - 0.16)

@@ -288,6 +288,51 @@ static void a_plate_may_be_uneven(void **state)
     assert_true(filled[1] < 0.8 * filled[0]);
 }
 
+// How far a fan grows toward each of six sides, as shares of its outline's half ellipse.
+static void reach_of_fan(const OutTree *tree, const CoralParams *params, float reach[6])
+{
+    CoralParams p = coral_params_resolve(params);
+    memset(reach, 0, 6 * sizeof reach[0]);
+    for (int64_t i = 0; i < tree->count; i++) {
+        float x = tree->position[i].x / (0.5f * p.size), y = tree->position[i].y / p.height;
+        int side = (int)(6.0f * atan2f(y, x) / PI_F);
+        if (side >= 0 && side < 6) {
+            reach[side] = fmaxf(reach[side], hypotf(x, y));
+        }
+    }
+}
+
+// A plain fan fills half an ellipse in a plane; an uneven one leaves the plane, but not at its
+// foot, and reaches less far to some sides.
+static void a_fan_may_be_uneven(void **state)
+{
+    (void)state;
+    float away[2] = {0.0f}, least[2] = {1.0f, 1.0f};
+    for (int uneven = 0; uneven < 2; uneven++) {
+        CoralParams params = small(CORAL_FAN);
+        params.rule = CORAL_MEAN;
+        params.length = params.length_tip = 0.03f * params.size;
+        params.uneven = (float)uneven;
+        OutTree *tree = grow(&params, 1);
+        float reach[6];
+        reach_of_fan(tree, &params, reach);
+        for (int side = 0; side < 6; side++) {
+            assert_true(reach[side] < 1.0f + 0.06f / 0.8f); // one step beyond, upward
+            least[uneven] = fminf(least[uneven], reach[side]);
+        }
+        for (int64_t i = 0; i < tree->count; i++) {
+            float z = fabsf(tree->position[i].z) / params.size;
+            assert_true(z < 0.03f || tree->position[i].y > 0.1f * params.size);
+            away[uneven] = fmaxf(away[uneven], z);
+        }
+        out_tree_free(tree);
+    }
+    assert_true(away[0] == 0.0f);
+    assert_true(away[1] > 0.02f && away[1] < 0.2f);
+    assert_true(least[0] > 0.9f);
+    assert_true(least[1] < 0.8f);
+}
+
 static void a_cup_is_open_and_faces_outward(void **state)
 {
     (void)state;
@@ -330,6 +375,7 @@ int main(void)
         cmocka_unit_test(fused_branches_are_a_net),
         cmocka_unit_test(a_stalk_may_stand_aside),
         cmocka_unit_test(a_plate_may_be_uneven),
+        cmocka_unit_test(a_fan_may_be_uneven),
         cmocka_unit_test(a_cup_is_open_and_faces_outward),
         cmocka_unit_test(a_wrong_rule_is_one_clear_error),
     };

@@ -73,6 +73,7 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
          0xf74b02699ab982c4},
         {"coral: {attractors: 200}", 0x94b4e32eca4fb10e},
         {"coral: {form: massive, attractors: 100}", 0x6cd5c5236530e4fa},
+        {"coral: {form: fan, rule: mean, attractors: 200, uneven: 1}", 0x5357bdbec608b5b7},
         {"lsystem: {generations: 4}", 0xb26e7379cdd8e999},
         {"frost: {surface: pane, spines: 40, sides: 400}", 0xf1e223ba3726ed12},
         {"frost: {surface: bubble, spines: 20, sides: 200}", 0x72100e15b56990cd},

@@ -6,15 +6,15 @@
 #include "base/random.h"
 #include "grow/colonize.h"
 #include "objects/common/element.h"
+#include "objects/coral/fan.h"
 #include "outtree/join.h"
 #include "outtree/radii.h"
 #include "shape/points.h"
 
 #include <stdlib.h>
 
-enum { STREAM_LUMP_TURN = 1, STREAM_LUMP_SIZE = 2 };                     // of a boulder's lump
-enum { STREAM_POINT_X = 0, STREAM_POINT_Y = 1, STREAM_POINT_LIGHT = 2 }; // of a fan's attractor
-enum { STREAM_TILT_X = 0, STREAM_TILT_Z = 1, STREAM_LOBES = 2 };         // of an uneven plate
+enum { STREAM_LUMP_TURN = 1, STREAM_LUMP_SIZE = 2 };             // of a boulder's lump
+enum { STREAM_TILT_X = 0, STREAM_TILT_Z = 1, STREAM_LOBES = 2 }; // of an uneven plate
 enum { STREAM_LOBE_TURN = 0, STREAM_LOBE_WAY = 1, STREAM_LOBE_WIDTH = 2, STREAM_LOBE_RISE = 3 };
 enum { STREAM_BRANCHLETS = 77 }; // of a node's id
 // Of a node's branchlets; those of attractor k start at STREAMS_A_BRANCHLET * k.
@@ -32,7 +32,7 @@ typedef struct Growing {
     GrowString string;
 } Growing;
 
-static Vec3 colony_foot(const CoralParams *p, int colony)
+Vec3 coral_foot(const CoralParams *p, int colony)
 {
     if (p->colonies == 1) {
         return p->position;
@@ -90,7 +90,7 @@ Envelope *coral_base(const CoralParams *p, uint64_t seed, const Run *run, Error 
 // The middle of a table's plate, which its stalk may miss.
 static Vec3 plate_middle(const CoralParams *p, int colony, uint64_t seed)
 {
-    Vec3 foot = colony_foot(p, colony);
+    Vec3 foot = coral_foot(p, colony);
     if (p->eccentric <= 0.0f) {
         return foot;
     }
@@ -143,7 +143,7 @@ static Envelope *room(const CoralParams *p, uint64_t seed, const Run *run, Error
     int count = 0;
     for (int i = 0; i < p->colonies; i++) {
         bool table = p->form == CORAL_TABLE;
-        Vec3 foot = table ? plate_middle(p, i, seed) : colony_foot(p, i);
+        Vec3 foot = table ? plate_middle(p, i, seed) : coral_foot(p, i);
         float middle = (table ? 0.9f : 0.5f) * p->height;
         float half = table ? 0.5f * p->plate : 0.52f * p->height;
         foot.y += middle;
@@ -167,37 +167,6 @@ static Envelope *room(const CoralParams *p, uint64_t seed, const Run *run, Error
     Envelope *envelope = envelope_new(&params, run, e);
     free(shapes);
     return envelope;
-}
-
-// In the plane z = position.z: half discs over the feet.
-static PointSet *flat_room(const CoralParams *p, uint64_t seed, Error *e)
-{
-    PointSet *points = points_new(e);
-    float r = 0.5f * p->size, wide = r + (p->colonies > 1 ? p->spread : 0.0f);
-    int64_t wanted = p->attractors * p->colonies;
-    for (uint64_t draw = 0; points && points->count < wanted; draw++) {
-        uint64_t key = random_key(seed, draw);
-        Vec3 at = vec3(random_range(random_key(key, STREAM_POINT_X), -wide, wide),
-                       random_range(random_key(key, STREAM_POINT_Y), 0.0f, p->height), 0.0f);
-        bool inside = false;
-        for (int i = 0; i < p->colonies && !inside; i++) {
-            Vec3 foot = vec3_sub(colony_foot(p, i), p->position);
-            float x = (at.x - foot.x) / r, y = at.y / p->height;
-            inside = x * x + y * y < 1.0f;
-        }
-        // light comes from above
-        float lit = lerpf(1.0f - p->light, 1.0f, at.y / p->height);
-        if (inside && random_unit(random_key(key, STREAM_POINT_LIGHT)) < lit &&
-            !points_add(points, vec3_add(p->position, at), vec3(0, 0, 1), key, e)) {
-            points_free(points);
-            return NULL;
-        }
-    }
-    if (points) {
-        points->dimension = 2;
-        points->measure = 0.5 * (double)PI_F * (double)(wide * p->height);
-    }
-    return points;
 }
 
 static PointSet *scatter(const Envelope *envelope, const CoralParams *p, ScatterPlace place,
@@ -230,7 +199,7 @@ static bool plant_upright(Growing *g, int colony, Error *e)
     bool flat = p->form == CORAL_FAN;
     float stem = p->form == CORAL_TABLE ? 0.9f * p->height : (flat ? 0.02f : 0.05f) * p->size;
     int pieces = p->form == CORAL_TABLE ? STEM_NODES : 1;
-    Vec3 at = colony_foot(p, colony);
+    Vec3 at = coral_foot(p, colony);
     at.y -= flat ? 0.0f : 0.06f * p->size;
     stem += flat ? 0.0f : 0.06f * p->size;
     int64_t node = plant(g->tree, at, vec3(0, 0, 1), colony, g->recipe->seed, e);
@@ -259,7 +228,7 @@ static bool plant_on_rock(Growing *g, const PointSet *points, Error *e)
 {
     const CoralParams *p = g->params;
     for (int i = 0; i < p->colonies; i++) {
-        Vec3 wanted = vec3_add(colony_foot(p, i), vec3(0, p->height, 0));
+        Vec3 wanted = vec3_add(coral_foot(p, i), vec3(0, p->height, 0));
         int64_t best = 0;
         float least = INFINITY;
         for (int64_t k = 0; k < points->count; k++) {
@@ -407,7 +376,7 @@ static bool grow_upright(Growing *g, Error *e)
     }
     PointSet *points = NULL;
     if (p->form == CORAL_FAN) {
-        points = flat_room(p, seed, e);
+        points = fan_room(p, seed, e);
     } else {
         Envelope *envelope = room(p, g->recipe->seed, g->recipe->run, e);
         bool seen = envelope && growth_observe(g->recipe, NULL, envelope, NULL, e);

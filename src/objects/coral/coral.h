@@ -13,7 +13,7 @@
 typedef enum CoralForm {
     CORAL_BRANCHING,  // staghorn: long rounded branches that fork in space
     CORAL_TABLE,      // corymbose: a plate of radiating branches with upright branchlets
-    CORAL_FAN,        // in the plane z = 0, as in the paper
+    CORAL_FAN,        // in the plane z = 0, as in the paper, unless it is uneven
     CORAL_ENCRUSTING, // a crust that creeps over a rock
     CORAL_MASSIVE     // a boulder of coral
 } CoralForm;
@@ -56,8 +56,9 @@ typedef struct CoralParams {
     float branchlet;          // m: height of a table's branchlets; 0 = 0.05 of the size
     float plate;              // m: thickness of a table's plate; 0 = 0.044 of the size
     float eccentric;          // 0..1: how far a table's stalk stands off its middle, in half sizes
-    float uneven;             // 0..1: how far a table's plate is tilted, lobed and in tiers
-    float pale;               // m from a growing tip (or margin) where it is pale; 0 = 4 tip radii
+    float
+        uneven; // 0..1: how far a table's plate is tilted, lobed and in tiers, a fan lobed and bent
+    float pale; // m from a growing tip (or margin) where it is pale; 0 = 4 tip radii
     PolypParams polyps;
     Shape *base; // of encrusting and massive forms: the rock; empty = a boulder of the size
     int base_count;
@@ -105,6 +106,9 @@ typedef struct CoralMeasures {
 } CoralMeasures;
 
 bool coral_measure(const OutTree *tree, CoralMeasures *measures, Error *e);
+
+// Where colony number `colony` stands.
+Vec3 coral_foot(const CoralParams *resolved, int colony);
 
 // The rock that encrusting and massive forms grow on. Free with envelope_free.
 Envelope *coral_base(const CoralParams *resolved, uint64_t seed, const Run *run, Error *e);

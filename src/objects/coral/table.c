@@ -94,8 +94,10 @@ static const Key CORAL_KEYS[] = {
      .doc = "Form table: distance of the stalk from the plate's middle, as a fraction of half the "
             "size."},
     {KEY_OF(CoralParams, uneven, "uneven", KEY_FLOAT), .high = 1,
-     .doc = "Form table: how uneven the plate is: tilted, with a lobed margin, its lobes lying a "
-            "little above and below each other; 0 = a level disc."},
+     .doc = "How uneven a table or a fan is. Form table: tilted, with a lobed margin, its lobes "
+            "lying a little above and below each other; 0 = a level disc. Form fan: bent out of "
+            "its plane, with a margin in lobes of different lengths and clefts between them; 0 = "
+            "half an ellipse in a plane."},
     {KEY_OF(CoralParams, pale, "pale", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Distance from a growing tip over which the tissue is pale; 0 = 4 tip radii."},
     {KEY_OF(CoralParams, polyps, "polyps", KEY_GROUP), .table = &POLYP_TABLE,
