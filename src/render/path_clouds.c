@@ -62,10 +62,9 @@ float path_clouds_clear(Path *path, float far)
                         &path->cloud_key);
 }
 
-// The share of the light in a cloud that comes from lamps, by the field.
-static float lit_by_lamps(const Tracer *tracer, Vec3 p)
+// The share of the light in a cloud that comes from lamps. lamps: what the field tells of it.
+static float share_of_lamps(const Tracer *tracer, float lamps)
 {
-    float lamps = lamp_field_around(tracer->lamp_field, p);
     return lamps / fmaxf(lamps + lights_mean_above(tracer->lights), 1e-30f);
 }
 
@@ -79,9 +78,9 @@ static float lit_from_within(const Tracer *tracer, Vec3 p, Vec3 direction)
     float depth = 4.0f / (cloud_even_extinction(&tracer->droplets) * fmaxf(densest, 1e-9f));
     for (int i = 0; i <= STEPS && tracer->lamp_field; i++) {
         Vec3 at = vec3_madd(p, depth * (float)i / STEPS, direction);
-        most = fmaxf(most, lit_by_lamps(tracer, at));
+        most = fmaxf(most, lamp_field_around(tracer->lamp_field, at));
     }
-    return most;
+    return share_of_lamps(tracer, most);
 }
 
 // The share of a camera ray that clouds hide. *normal: the side from which they get thinner,
@@ -180,7 +179,7 @@ static void add_lamps(Path *path, Vec3 point)
         return;
     }
     if (path->cloud_order < ORDERS) {
-        path->near = clampf(lit_by_lamps(path->tracer, point), least, 1.0f - least);
+        path->near = clampf(share_of_lamps(path->tracer, luminance(mean)), least, 1.0f - least);
         return;
     }
     path_add_light(path, mean);

@@ -73,7 +73,7 @@ static void width_grows_with_the_area(void **state)
     creeks_free(creeks);
 }
 
-// Along a levee that costs a hundred times as much, with one gap, all creeks leave by the gap.
+// Along a levee that costs a thousand times as much, with one gap, all creeks leave by the gap.
 static void creeks_pass_levees_at_gaps(void **state)
 {
     (void)state;
@@ -140,7 +140,9 @@ static TerrainParams small_delta(void)
     return params;
 }
 
-// Creeks only take ground away, and join the marsh to the water: more of the shore, in many trees.
+// Trees of creeks take the place of those where two levels of noise meet, 0.14 of the river's
+// depth: ground rises by no more than these, sinks along the new ones, and the water reaches far
+// into it.
 static void creeks_cut_the_marsh(void **state)
 {
     (void)state;
@@ -154,8 +156,10 @@ static void creeks_cut_the_marsh(void **state)
     assert_memory_equal(after->height, again->height, bytes);
     const DeltaLand *land = ((const Terrain *)grown.state)->delta;
     int64_t lowered = 0, wet = 0;
+    float raised = 0.0f;
     for (int64_t i = 0; i < height_field_count(after); i++) {
         float change = after->height[i] - before->height[i];
+        raised = fmaxf(raised, change);
         lowered += change < -0.1f;
         wet += after->height[i] < after->water[i] && before->height[i] >= before->water[i];
     }
@@ -163,6 +167,7 @@ static void creeks_cut_the_marsh(void **state)
     print_message("%d reaches lower %.1f %% of the square; %d samples more under water\n",
                   (int)land->creeks->count, 100.0 * share, (int)wet);
     assert_true(land->creeks->count > 1000 && share > 0.01 && share < 0.2 && wet > 1000);
+    assert_true(raised <= 0.1401f * (float)land->model->depth);
     height_field_free(before);
     height_field_free(after);
     height_field_free(again);
@@ -206,7 +211,7 @@ static void eddies_make_fronts(void **state)
         sea(grown[k].state, k == 0, &mean[k], &front[k]);
         print_message("mud %.3f, fronts on %.1f %%\n", mean[k], 100.0 * front[k]);
     }
-    assert_true(fabs(mean[1] / mean[0] - 1.0) < 0.35);
+    assert_true(fabs(mean[1] / mean[0] - 1.0) < 0.25);
     assert_true(front[1] > 0.03 && front[0] < 0.01);
     const Terrain *terrain = grown[1].state;
     const Delta *d = terrain->delta->model;
