@@ -126,6 +126,8 @@ float pattern_height(const Material *m, const SurfacePoint *point)
     case PATTERN_MASONRY:
     case PATTERN_DRESSED:
         return pattern_masonry_height(m, point);
+    case PATTERN_RUBBLE:
+        return pattern_rubble_height(m, point);
     case PATTERN_STONE:
         return pattern_stone_height(m, point);
     case PATTERN_STRATA:
@@ -170,6 +172,7 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_BARK] = pattern_bark,
     [PATTERN_MASONRY] = pattern_masonry,
     [PATTERN_DRESSED] = pattern_masonry,
+    [PATTERN_RUBBLE] = pattern_rubble,
     [PATTERN_STONE] = pattern_stone,
     [PATTERN_GROUND] = pattern_ground,
     [PATTERN_LEAF] = pattern_leaf,
