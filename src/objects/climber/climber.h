@@ -24,7 +24,7 @@ typedef struct HangingParams {
 
 // Roots by which stems hold to the surface.
 typedef struct RootletParams {
-    float spacing; // m between them along a stem about 3 mm thick; 0 = none
+    float spacing; // m between them along a stem of 3 mm radius; 0 = none
     float length;  // m, of the longest
     float radius;  // m, where they leave the stem
 } RootletParams;

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "base/turn.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 enum { POINTS = 5 }; // of a rootlet
@@ -38,14 +39,16 @@ static Segment segment_to(const ClimberParams *params, const OutTree *tree, int6
                      .key = random_key(seed, tree->id[node])};
 }
 
-// Rootlets of a segment: in bunches, more of them on a thicker stem.
+// Rootlets of a segment: in bunches, many more of them on a thicker stem, which has borne them for
+// years.
 static int64_t rootlets_of(const ClimberParams *params, const Segment *segment, uint64_t seed)
 {
-    const float bunch = 0.045f, thick = 0.008f; // m
+    const float bunch = 0.045f, common = 0.003f; // m
+    float thick = segment->radius / common;
     float length = vec3_distance(segment->start, segment->end);
     float bunched = noise_space(vec3_scale(segment->end, 1.0f / bunch),
                                 random_key(seed, STREAM_BUNCHES));
-    float dense = smoothstepf(-0.25f, 0.45f, bunched) * (0.6f + fminf(segment->radius / thick, 2.0f));
+    float dense = smoothstepf(-0.6f, 0.4f, bunched) * fminf(thick * thick, 6.0f);
     float wanted = dense * length / params->rootlets.spacing;
     return (int64_t)(wanted + random_unit(random_key(segment->key, STREAM_NUMBER)));
 }
@@ -64,10 +67,11 @@ static void add_rootlet(const RootletParams *params, const Segment *segment, uin
     const float widest = 125.0f; // degrees from straight into the surface
     Vec3 along = vec3_normalize(vec3_sub(segment->end, segment->start));
     Vec3 in = vec3_neg(segment->normal);
-    float turn = widest * (2.0f * random_unit(random_key(key, STREAM_TURN)) - 1.0f);
+    float side = 2.0f * random_unit(random_key(key, STREAM_TURN)) - 1.0f;
+    float turn = widest * (side < 0.0f ? -sqrtf(-side) : sqrtf(side)); // most spread out
     Vec3 heading = vec3_turn(in, along, turn);
     float share = random_unit(random_key(key, STREAM_LENGTH));
-    float step = params->length * lerpf(0.2f, 1.0f, share * share) / (float)(POINTS - 1);
+    float step = params->length * lerpf(0.25f, 1.0f, share) / (float)(POINTS - 1);
     Vec3 p = vec3_lerp(segment->start, segment->end, random_unit(random_key(key, STREAM_PLACE)));
     p = vec3_madd(p, 0.85f * segment->radius, heading);
     for (int i = 0; i < POINTS; i++) {

@@ -35,8 +35,8 @@ static const Table HANGING_TABLE = {.name = "climber_hanging",
 
 static const Key ROOTLET_KEYS[] = {
     {KEY_OF(RootletParams, spacing, "spacing", KEY_FLOAT), .high = 10, .unit = "m",
-     .doc = "Distance between them along a stem of 3 mm; they stand in bunches, on thicker stems "
-            "closer together. 0 = none."},
+     .doc = "Distance between them along a stem of 3 mm radius where they stand in a bunch; on "
+            "thicker stems up to 6 times as many. 0 = none."},
     {KEY_OF(RootletParams, length, "length", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .unit = "m", .doc = "Length of the longest."},
     {KEY_OF(RootletParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1,
