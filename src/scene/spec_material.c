@@ -265,14 +265,14 @@ static const Key MATERIAL_KEYS[] = {
             "are drawn once are diced to about 1.5 pixels (5 x render.detail) where the camera "
             "sees the relief; copies of an object keep bumps."},
     {KEY_OF(Material, moss, "moss", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc = "Patterns bark, stone, masonry, rubble and dressed: how much moss grows on it: at the foot, on "
+     .doc = "Patterns bark, stone, masonry, rubble and dressed: how much moss grows on it: at the "
+            "foot, on "
             "sides that face up or north (-z), in furrows and joints first. Pattern mountain: how "
             "damp its faces are: moss in cracks, on ledges and where water seeps, algae, rust and "
             "lime in streaks. Reef: how much of it is dead, under turf."},
     {KEY_OF(Material, lichen, "lichen", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc =
-         "Patterns bark, stone, masonry, rubble and dressed: how much lichen grows on it; reef: "
-         "how much of its dead patches and undersides is pink with coralline algae."},
+     .doc = "Patterns bark, stone, masonry, rubble and dressed: how much lichen grows on it; reef: "
+            "how much of its dead patches and undersides is pink with coralline algae."},
     {KEY_OF(Material, scars, "scars", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern bark: how many knots and scars of shed limbs it has; reef: how many bites of "
             "parrotfish; snow: how many of the tracks of a fox there are, at most one in 11 m."},

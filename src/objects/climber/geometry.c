@@ -49,8 +49,7 @@ bool climber_geometry(const void *given, const Grown *grown, const Placing *plac
 {
     const ClimberParams *params = given;
     Stems stems = {.tree = grown->tree};
-    if (!add_stems(params, grown->tree, placing, e) ||
-        !add_rootlets(params, grown, placing, e) ||
+    if (!add_stems(params, grown->tree, placing, e) || !add_rootlets(params, grown, placing, e) ||
         !point_tree_init(&stems.nodes, grown->tree->position, grown->tree->count, e)) {
         return false;
     }

@@ -46,10 +46,11 @@ static int64_t rootlets_of(const ClimberParams *params, const Segment *segment, 
     const float bunch = 0.045f, common = 0.003f; // m
     float thick = segment->radius / common;
     float length = vec3_distance(segment->start, segment->end);
-    float bunched = noise_space(vec3_scale(segment->end, 1.0f / bunch),
-                                random_key(seed, STREAM_BUNCHES));
+    float bunched =
+        noise_space(vec3_scale(segment->end, 1.0f / bunch), random_key(seed, STREAM_BUNCHES));
     float dense = smoothstepf(-0.6f, 0.4f, bunched) * fminf(thick * thick, 6.0f);
-    float wanted = dense * length / params->rootlets.spacing;
+    const float most = 1e9f; // no memory holds as many
+    float wanted = fminf(dense * length / params->rootlets.spacing, most);
     return (int64_t)(wanted + random_unit(random_key(segment->key, STREAM_NUMBER)));
 }
 
@@ -99,8 +100,8 @@ static void fill(const ClimberParams *params, const OutTree *tree, uint64_t seed
             for (int64_t j = first; j < first + POINTS; j++) {
                 curves->birth[j] = 1.0f;
                 curves->along[j] =
-                    j > first ? curves->along[j - 1] + vec3_distance(curves->position[j - 1],
-                                                                     curves->position[j])
+                    j > first ? curves->along[j - 1] +
+                                    vec3_distance(curves->position[j - 1], curves->position[j])
                               : 0.0f;
             }
             curves->id[curve] = key;
@@ -124,7 +125,10 @@ CurveSet *climber_rootlets(const ClimberParams *params, const OutTree *tree, con
             all += count[i];
         }
     }
-    CurveSet *curves = curves_new(POINTS * all, all, e);
+    const double bytes = POINTS * (sizeof(Vec3) + 3 * sizeof(float)) + 2 * sizeof(int64_t);
+    bool fits = memory_check((double)all * bytes, e,
+                             "%lld rootlets (fewer by a wider rootlets.spacing)", (long long)all);
+    CurveSet *curves = fits ? curves_new(POINTS * all, all, e) : NULL;
     if (curves) {
         fill(params, tree, seed, count, curves);
     }

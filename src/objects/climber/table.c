@@ -39,8 +39,8 @@ static const Key ROOTLET_KEYS[] = {
             "thicker stems up to 6 times as many. 0 = none."},
     {KEY_OF(RootletParams, length, "length", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .unit = "m", .doc = "Length of the longest."},
-    {KEY_OF(RootletParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1,
-     .unit = "m", .doc = "Radius where they leave the stem."},
+    {KEY_OF(RootletParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1, .unit = "m",
+     .doc = "Radius where they leave the stem."},
     {0},
 };
 

@@ -62,8 +62,8 @@ static float veins(Vec2 uv, float count, float blur)
     return fmaxf(fmaxf(midrib, 0.85f * vein), veinlets(run, side, count, blur));
 }
 
-// How far a blade is paler about its midrib (of a lobed one, those of all lobes) and its side veins:
-// along the vein nearly white, beside it in a band that fades.
+// How far a blade is paler about its midrib (of a lobed one, those of all lobes) and its side
+// veins: along the vein nearly white, beside it in a band that fades.
 static float pale_band(Vec2 uv, float count, float blur)
 {
     float side = fabsf(uv.x - 0.5f);

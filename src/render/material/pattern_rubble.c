@@ -79,8 +79,8 @@ static void divide(Stone *s, bool upright)
     float slant = 0.34f * (noise_unit(s->hash, 12) - 0.5f);
     float beyond = upright ? s->left - at * width + slant * (s->low - 0.5f * height)
                            : s->low - at * height + slant * (s->left - 0.5f * width);
-    float *nearer = upright ? (beyond > 0.0f ? &s->left : &s->right)
-                            : (beyond > 0.0f ? &s->low : &s->high);
+    float *nearer =
+        upright ? (beyond > 0.0f ? &s->left : &s->right) : (beyond > 0.0f ? &s->low : &s->high);
     *nearer = fabsf(beyond);
     s->hash = mixed(s->hash, beyond > 0.0f ? 21u : 22u);
 }
@@ -122,7 +122,7 @@ static Stone stone_at(Vec3 p, Vec3 n, float scale)
         float width = s.left + s.right, height = s.low + s.high;
         bool large = width > 2.3f || height > 1.5f;
         if (large || (width * height > 0.9f && noise_unit(s.hash, 14) < 0.5f)) {
-            divide(&s, width > lerpf(1.1f, 2.1f, noise_unit(s.hash, 15)) * height);
+            divide(&s, width > lerpf(1.4f, 2.4f, noise_unit(s.hash, 15)) * height);
         }
     }
     float chip = noise_solid(vec3_scale(q, 2.1f), SEED_EDGE, NULL);
@@ -152,7 +152,8 @@ static float face_of(const Stone *s, Vec3 p, float scale)
     Vec3 q = vec3_madd(vec3_scale(p, 1.0f / scale), own, vec3(1.0f, 7.0f, 3.0f));
     float width = fmaxf(s->left + s->right, 0.2f), height = fmaxf(s->low + s->high, 0.2f);
     float lean_x = noise_unit(s->hash, 31) - 0.5f, lean_y = noise_unit(s->hash, 32) - 0.5f;
-    float set = 0.5f * (noise_unit(s->hash, 33) - 0.5f) + 0.45f * lean_x * (s->left / width - 0.5f) +
+    float set = 0.5f * (noise_unit(s->hash, 33) - 0.5f) +
+                0.45f * lean_x * (s->left / width - 0.5f) +
                 0.5f * lean_y * (s->low / height - 0.5f);
     float bedded = noise_unit(s->hash, 34), pitted = noise_unit(s->hash, 35);
     float beds = noise_fractal(vec3(1.3f * q.x, 6.0f * q.y, 1.3f * q.z), 4, SEED_FACE);
@@ -160,7 +161,8 @@ static float face_of(const Stone *s, Vec3 p, float scale)
     float where = smoothstepf(-0.2f, 0.5f, noise_solid(vec3_scale(q, 1.4f), SEED_PITS + 3, NULL));
     float pits = where * smoothstepf(0.05f, 0.6f, noise_fractal(vec3_scale(q, 7.0f), 4, SEED_PITS));
     float grain = noise_fractal(vec3_scale(p, 1.0f / 0.007f), 3, SEED_GRAIN);
-    float edge = clampf(1.0f - s->border / lerpf(0.04f, 0.16f, noise_unit(s->hash, 36)), 0.0f, 1.0f);
+    float edge =
+        clampf(1.0f - s->border / lerpf(0.04f, 0.16f, noise_unit(s->hash, 36)), 0.0f, 1.0f);
     return 0.35f + set + 0.3f * faces + 0.22f * bedded * bedded * beds -
            0.3f * pitted * pitted * pitted * pits + 0.035f * grain - 0.34f * edge * edge;
 }
@@ -171,8 +173,8 @@ static void add_mortar(const Material *m, const SurfacePoint *point, Vec3 p, Rub
     float scale = scale_of(m), depth = fmaxf(m->pattern_depth, 1e-4f);
     float washed = noise_fractal(vec3_scale(p, 0.9f / scale), 3, SEED_MORTAR);
     float trowel = noise_fractal(vec3_scale(p, 1.0f / 0.030f), 4, SEED_MORTAR + 3);
-    float shrunk = smoothstepf(0.0f, 0.35f,
-                               noise_solid(vec3_scale(p, 0.7f / scale), SEED_MORTAR + 7, NULL));
+    float shrunk =
+        smoothstepf(0.0f, 0.35f, noise_solid(vec3_scale(p, 0.7f / scale), SEED_MORTAR + 7, NULL));
     float gap = smoothstepf(-0.035f, -0.005f, r->stone.border) * shrunk;
     float height = depth * (-0.12f + 0.34f * clampf(washed, -1.0f, 1.0f) - 0.16f * gap);
     height += 0.0028f * trowel;
@@ -189,9 +191,9 @@ static void add_mortar(const Material *m, const SurfacePoint *point, Vec3 p, Rub
     float size = lerpf(0.18f, 0.42f, noise_unit(stone.cell, 42));
     bool lies = noise_unit(stone.cell, 43) < 0.28f;
     float inside = 1.0f - vec3_length(stone.point) / size;
-    r->pebble = lies ? smoothstepf(0.0f, 0.15f, inside) *
-                           pattern_detail(pebble_size, point->footprint)
-                     : 0.0f;
+    r->pebble =
+        lies ? smoothstepf(0.0f, 0.15f, inside) * pattern_detail(pebble_size, point->footprint)
+             : 0.0f;
     height += 0.0022f * r->pebble * (0.4f + 0.6f * clampf(inside, 0.0f, 1.0f));
     r->mortar = height / depth;
 }
@@ -228,8 +230,7 @@ static Overgrowth moss_of(const Material *m, const SurfacePoint *point, float sh
 float pattern_rubble_height(const Material *m, const SurfacePoint *point)
 {
     Rubble r = rubble_at(m, point, point->object_position);
-    float height =
-        m->pattern_depth * pattern_detail(scale_of(m), point->footprint) * r.height;
+    float height = m->pattern_depth * pattern_detail(scale_of(m), point->footprint) * r.height;
     return m->moss > 0.0f ? height + moss_of(m, point, 1.0f - r.share).height : height;
 }
 
@@ -244,8 +245,8 @@ static Vec3 mortar_color(const Material *m, const Rubble *r, Vec3 p)
                  : kind < 0.6f  ? vec3(0.52f, 0.49f, 0.43f)
                                 : color;
     color = vec3_lerp(color, grain, 0.55f * r->grain * (r->sand != 0));
-    Vec3 pebble = vec3_lerp(vec3(0.19f, 0.165f, 0.14f), vec3(0.42f, 0.36f, 0.28f),
-                            0.5f + 0.5f * patch);
+    Vec3 pebble =
+        vec3_lerp(vec3(0.19f, 0.165f, 0.14f), vec3(0.42f, 0.36f, 0.28f), 0.5f + 0.5f * patch);
     return vec3_lerp(color, pebble, 0.8f * r->pebble);
 }
 
@@ -255,9 +256,9 @@ static Vec3 stone_color(const Material *m, Vec3 color, const Stone *s, const Sur
     float tone = noise_unit(s->hash, 51), hue = 0.4f * (noise_unit(s->hash, 52) - 0.5f);
     Vec3 own = vec3_lerp(color, m->color2, tone);
     own = vec3(own.x * (1.0f + hue), own.y, own.z * (1.0f - 1.2f * hue));
-    float iron = smoothstepf(0.15f, 0.7f, noise_fractal(vec3_scale(p, 1.0f / 0.055f), 4, SEED_TONE));
-    own = vec3_lerp(own, vec3_mul(own, vec3(1.15f, 0.85f, 0.55f)),
-                    iron * noise_unit(s->hash, 53));
+    float iron =
+        smoothstepf(0.15f, 0.7f, noise_fractal(vec3_scale(p, 1.0f / 0.055f), 4, SEED_TONE));
+    own = vec3_lerp(own, vec3_mul(own, vec3(1.15f, 0.85f, 0.55f)), iron * noise_unit(s->hash, 53));
     float mottle = noise_fractal(vec3_scale(p, 1.0f / 0.018f), 3, SEED_TONE + 4);
     float speck = pattern_detail(0.003f, point->footprint) *
                   noise_fractal(vec3_scale(p, 1.0f / 0.0028f), 2, SEED_TONE + 8);
@@ -272,8 +273,8 @@ static Vec3 stained(const Rubble *r, Vec3 p, Vec3 color)
     float hollow = smoothstepf(0.3f, -0.5f, r->height);
     float crust = smoothstepf(-0.05f, 0.5f, streak + 0.35f * cloud - 0.25f * r->height);
     color = vec3_lerp(color, vec3_mul(color, vec3(0.42f, 0.42f, 0.38f)), 0.8f * crust);
-    float green = smoothstepf(0.0f, 0.5f, noise_fractal(vec3_scale(p, 2.3f), 3, SEED_STAIN + 8) +
-                                              0.3f * cloud);
+    float green = smoothstepf(0.0f, 0.5f,
+                              noise_fractal(vec3_scale(p, 2.3f), 3, SEED_STAIN + 8) + 0.3f * cloud);
     color = vec3_lerp(color, vec3_mul(color, vec3(0.62f, 0.68f, 0.42f)), 0.6f * green);
     float lime = smoothstepf(0.15f, 0.5f, cloud - 0.4f * streak) * r->share;
     color = vec3_lerp(color, vec3(0.42f, 0.40f, 0.35f), 0.3f * lime);
@@ -285,8 +286,8 @@ void pattern_rubble(const Material *m, const SurfacePoint *point, PatternShade *
     Vec3 p = point->object_position;
     float bump = 1.0f - point->displaced;
     Rubble r = rubble_at(m, point, p);
-    Vec3 color = vec3_lerp(mortar_color(m, &r, p), stone_color(m, shade->color, &r.stone, point),
-                           r.share);
+    Vec3 color =
+        vec3_lerp(mortar_color(m, &r, p), stone_color(m, shade->color, &r.stone, point), r.share);
     shade->color = stained(&r, p, color);
     if (m->lichen > 0.0f) {
         Overgrowth lichen = lichen_at(m->lichen, point);
