@@ -264,7 +264,7 @@ species_rows() {
 }
 species_rows species
 species_rows species-winter
-fine ivy-wall ivy-wall 4
+still ivy-wall ivy-wall
 still olive-trunk olive-trunk
 fine pine-rock pine-rock 5
 still leaves-sun leaves-sun

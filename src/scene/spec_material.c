@@ -55,6 +55,7 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"heath", PATTERN_HEATH},
                                     {"ice", PATTERN_ICE},
                                     {"snow", PATTERN_SNOW},
+                                    {"rubble", PATTERN_RUBBLE},
                                     {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED},
@@ -141,6 +142,10 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, autumn_color, "autumn_color", KEY_COLOR), .kinds = BIT(MATERIAL_LEAF),
      .high = 1,
      .doc = "Reflectance of a leaf that has turned (leaves.autumn); its transmittance follows."},
+    {KEY_OF(Material, young_color, "young_color", KEY_COLOR), .kinds = BIT(MATERIAL_LEAF),
+     .high = 1,
+     .doc = "Reflectance of a leaf just out of its bud (leaves.flush, leaves.emergence), reddish "
+            "of many plants; its transmittance follows. Black = paler than the full-grown leaf."},
     {KEY_OF(Material, absorption, "absorption", KEY_COLOR), .kinds = CLEAR, .high = 1e6,
      .unit = "1/m", .doc = "Absorption coefficient of the interior (Beer-Lambert law)."},
     {KEY_OF(Material, scattering, "scattering", KEY_COLOR), .kinds = CLEAR, .high = 1e6,
@@ -175,7 +180,8 @@ static const Key MATERIAL_KEYS[] = {
          "Procedural pattern of color and color2, with bumps. bark: ridges and furrows; ground: "
          "soil and grass in patches; stone: broken faces, joints, minerals and stains; masonry: "
          "a wall of weathered stones in courses as high as pattern_scale; dressed: the same stone "
-         "without joints, for arches, sills and fallen blocks; leaf: "
+         "without joints, for arches, sills and fallen blocks; rubble: a wall of "
+         "rough stones of all sizes, about pattern_scale high, in mortar; leaf: "
          "veins and blotches; noise: plain noise; corallite: "
          "cups of a coral; brain: winding ridges of a brain coral, color2 in the valleys; "
          "reef: a boulder of coral that lives: cups, swellings paler (color2) above, bites of fish "
@@ -253,20 +259,20 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, displacement, "displacement", KEY_ENUM), .kinds = PATTERNED,
      .names = DISPLACEMENTS,
      .doc = "Is the relief true geometry near the camera? auto: of barks, stone, "
-            "masonry, dressed stone and "
+            "masonry, rubble, dressed stone and "
             "displacement_texture; on: of the patterns noise, strata, mountain, alps, coast, "
             "karst, badlands and snow, too; off: bumps everywhere. Meshes that "
             "are drawn once are diced to about 1.5 pixels (5 x render.detail) where the camera "
             "sees the relief; copies of an object keep bumps."},
     {KEY_OF(Material, moss, "moss", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc = "Patterns bark, stone, masonry and dressed: how much moss grows on it: at the foot, on "
+     .doc = "Patterns bark, stone, masonry, rubble and dressed: how much moss grows on it: at the "
+            "foot, on "
             "sides that face up or north (-z), in furrows and joints first. Pattern mountain: how "
             "damp its faces are: moss in cracks, on ledges and where water seeps, algae, rust and "
             "lime in streaks. Reef: how much of it is dead, under turf."},
     {KEY_OF(Material, lichen, "lichen", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
-     .doc =
-         "Patterns bark, stone, masonry and dressed: how much lichen grows on it; reef: how much "
-         "of its dead patches and undersides is pink with coralline algae."},
+     .doc = "Patterns bark, stone, masonry, rubble and dressed: how much lichen grows on it; reef: "
+            "how much of its dead patches and undersides is pink with coralline algae."},
     {KEY_OF(Material, scars, "scars", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern bark: how many knots and scars of shed limbs it has; reef: how many bites of "
             "parrotfish; snow: how many of the tracks of a fox there are, at most one in 11 m."},
@@ -287,6 +293,11 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, veins, "veins", KEY_FLOAT), .kinds = PATTERNED, .high = 60,
      .doc = "Pattern leaf: side veins on each half of a blade, lobe or leaflet; 0 = veins that run "
             "along it, as of grasses, palms, ginkgo."},
+    {KEY_OF(Material, pale_veins, "pale_veins", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
+     .doc = "Pattern leaf: how much paler than the blade its veins are from above, with a light "
+            "band along them: 0 = little, 1 = nearly white, as on old ivy."},
+    {KEY_OF(Material, mortar, "mortar", KEY_COLOR), .kinds = PATTERNED, .high = 1,
+     .doc = "Pattern rubble: reflectance of the mortar, before dirt and algae."},
     {KEY_OF(Material, snow_line, "snow_line", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern mountain: altitude above which snow lies, as a fraction of the relief; 0 = no "
             "snow."},

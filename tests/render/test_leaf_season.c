@@ -74,6 +74,22 @@ static void young_leaves_are_paler_and_let_more_light_through(void **state)
     assert_true(turned.color.x + turned.transmittance.x < 1.0f);
 }
 
+// A species whose young leaves are reddish: they have its colour, and the grown ones theirs.
+static void young_leaves_may_have_a_colour_of_their_own(void **state)
+{
+    (void)state;
+    Material m = leaf();
+    m.young_color = vec3(0.3f, 0.12f, 0.06f);
+    PatternShade young = shade_at(&m, -1.0f, 0.3f, 0.5f), grown = shade_at(&m, 0.0f, 0.3f, 0.5f);
+    assert_float_equal(young.color.x, 0.3f, 1e-6f);
+    assert_float_equal(young.color.y, 0.12f, 1e-6f);
+    assert_true(young.transmittance.x > 2.0f * young.transmittance.y);
+    assert_true(young.color.x + young.transmittance.x < 1.0f);
+    assert_memory_equal(&grown.color, &m.color, sizeof m.color);
+    PatternShade half = shade_at(&m, -0.5f, 0.3f, 0.5f);
+    assert_true(half.color.x > grown.color.x && half.color.x < young.color.x);
+}
+
 static PatternShade withered_at(const Material *m, float withered)
 {
     SurfacePoint point = {.uv = {0.3f, 0.5f},
@@ -124,6 +140,7 @@ int main(void)
         cmocka_unit_test(a_grown_leaf_has_its_own_colour_and_a_turned_one_the_autumns),
         cmocka_unit_test(leaves_turn_from_the_edge),
         cmocka_unit_test(young_leaves_are_paler_and_let_more_light_through),
+        cmocka_unit_test(young_leaves_may_have_a_colour_of_their_own),
         cmocka_unit_test(a_leaf_withers_from_green_over_yellow_and_brown_to_straw),
         cmocka_unit_test(only_leaves_have_a_season),
     };

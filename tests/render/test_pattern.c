@@ -490,6 +490,35 @@ static void test_leaf_veins(void **state)
                 1.1 * red / through);
 }
 
+// Pale veins: from above the midrib stands out far more, the blade far from it has its fine veins
+// alone, and the light that passes does not change.
+static void test_leaf_pale_veins(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_LEAF), pale;
+    m.pattern = PATTERN_LEAF;
+    m.color = m.color2 = vec3(0.03f, 0.06f, 0.015f);
+    pale = m;
+    pale.pale_veins = 1.0f;
+    SurfacePoint p = {.normal = vec3(0, 0, 1),
+                      .geometric_normal = vec3(0, 0, 1),
+                      .tangent_u = vec3(0.06f, 0, 0),
+                      .tangent_v = vec3(0, 0.1f, 0),
+                      .uv = {0.5f, 0.4f},
+                      .footprint = 1e-5f};
+    assert_true(shade_of(&pale, &p).color.y > 2.5f * shade_of(&m, &p).color.y);
+    double before = 0.0, after = 0.0;
+    for (int i = 0; i < 1000; i++) {
+        p.uv = (Vec2){0.75f + 0.25f * random_unit(random_key(1, (uint64_t)i)),
+                      random_unit(random_key(2, (uint64_t)i))};
+        PatternShade plain = shade_of(&m, &p), lit = shade_of(&pale, &p);
+        before += (double)plain.color.y;
+        after += (double)lit.color.y;
+        assert_float_equal(lit.transmittance.y, plain.transmittance.y, 0.0f);
+    }
+    assert_true(after > 1.02 * before && after < 1.4 * before); // side veins alone
+}
+
 // Dead spots are brown, and take up little of some leaves.
 static void test_leaf_spots(void **state)
 {
@@ -1035,6 +1064,7 @@ int main(void)
         cmocka_unit_test(test_bark_without_branch),
         cmocka_unit_test(test_ground),
         cmocka_unit_test(test_leaf_veins),
+        cmocka_unit_test(test_leaf_pale_veins),
         cmocka_unit_test(test_leaf_spots),
         cmocka_unit_test(test_leaf_blotches_tint_light_that_passes),
         cmocka_unit_test(test_variation),

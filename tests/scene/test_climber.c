@@ -155,6 +155,76 @@ static void test_leaves_face_outward(void **state)
     scene_free(scene);
 }
 
+// Rootlets of a growth on the wall: curves all as thin as these.
+static const CurveSet *find_rootlets(const World *world, float radius)
+{
+    for (int64_t i = 0; i < world->geometry.count; i++) {
+        const CurveSet *curves = world->geometry.part[i].curves;
+        if (curves && curves->radius[0] == radius) {
+            return curves;
+        }
+    }
+    return NULL;
+}
+
+// Distance from p to the nearest stem of the tree, less its radius.
+static float to_stems(const OutTree *tree, Vec3 p)
+{
+    float least = INFINITY;
+    for (int64_t i = 0; i < tree->count; i++) {
+        if (tree->parent[i] >= 0) {
+            Vec3 a = tree->position[tree->parent[i]], b = tree->position[i];
+            Vec3 way = vec3_sub(b, a);
+            float t = vec3_dot(vec3_sub(p, a), way) / fmaxf(vec3_dot(way, way), 1e-12f);
+            Vec3 at = vec3_madd(a, clampf(t, 0.0f, 1.0f), way);
+            least = fminf(least, vec3_distance(p, at) - tree->radius[i]);
+        }
+    }
+    return least;
+}
+
+#define ROOTLETS ", rootlets: {spacing: 0.004, length: 0.02, radius: 0.00037}"
+
+// Rootlets start on the stems and end nearer to the wall, outside of it; shoots that hang have
+// none; without the key there are none.
+static void test_rootlets_hold_stems(void **state)
+{
+    const float radius = 0.00037f;
+    Scene *scene = fixture_read(*state, WALL IVY(ROOTLETS ", hanging: {count: 0}"));
+    Scene *hanging = fixture_read(*state, WALL IVY(ROOTLETS ", hanging: {count: 60}"));
+    Scene *bare = fixture_read(*state, WALL IVY(", hanging: {count: 0}"));
+    Run run = run_default();
+    World *world = scene_build(scene, &run, NULL, NULL);
+    World *other = scene_build(hanging, &run, NULL, NULL);
+    World *none = scene_build(bare, &run, NULL, NULL);
+    OutTree *tree = grow(scene, 2);
+    const CurveSet *curves = find_rootlets(world, radius), *same = find_rootlets(other, radius);
+    assert_non_null(curves);
+    assert_non_null(same);
+    assert_null(find_rootlets(none, radius));
+    assert_true(curves->curve_count > 300);
+    // thicker stems bear more, and a pipe's radii grow by what hangs on it: by less than a half
+    assert_true(same->curve_count < 3 * curves->curve_count / 2);
+    int64_t nearer = 0, inside = 0, step = curves->curve_count / 150;
+    int64_t looked = 0;
+    for (int64_t i = 0; i < curves->curve_count; i += step, looked++) {
+        Vec3 foot = curves->position[curves->first[i]];
+        Vec3 tip = curves->position[curves->first[i + 1] - 1];
+        assert_true(to_stems(tree, foot) < 0.002f);
+        nearer += to_wall(tip) < to_wall(foot);
+        inside += to_wall(tip) < -0.01f; // a voxel of the wall's level set is 0.02 m
+    }
+    assert_true((double)nearer > 0.6 * (double)looked);
+    assert_true((double)inside < 0.03 * (double)looked);
+    out_tree_free(tree);
+    world_free(world);
+    world_free(other);
+    world_free(none);
+    scene_free(scene);
+    scene_free(hanging);
+    scene_free(bare);
+}
+
 #define RACEMES                                                                                 \
     ", hanging: {count: 0}, leaves: {max_count: 0}, organs: [{kind: blossom, cluster: raceme, " \
     "hang: 1, stalk: 0.02, season: [4.8, 5.8]}]"
@@ -232,6 +302,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_shoots_gather_in_masses, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_leaves_face_outward, fixture_set_up,
+                                        fixture_tear_down),
+        cmocka_unit_test_setup_teardown(test_rootlets_hold_stems, fixture_set_up,
                                         fixture_tear_down),
         cmocka_unit_test_setup_teardown(test_organs_hang_before_the_wall, fixture_set_up,
                                         fixture_tear_down),

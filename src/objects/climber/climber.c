@@ -27,6 +27,7 @@ ClimberParams climber_params_default(void)
                            .wander = 0.35f,
                            .offset = 0.002f,
                            .hanging = {150, 0.5f, 0.5f, .clump_size = 0.8f},
+                           .rootlets = {.length = 0.012f, .radius = 0.0003f},
                            .radii = {.model = RADIUS_PIPE, .exponent = 2.6f, .tip = 0.0012f},
                            .root_radius = 0.02f,
                            .leaves = {.max_count = 200000,
@@ -162,6 +163,34 @@ static bool climb_up(const Climb *climb, Error *e)
     return true;
 }
 
+// Notes which nodes of the whole growth hang free: those from number `clinging` on.
+static bool note_hanging(Grown *whole, int64_t clinging, Error *e)
+{
+    bool *hangs = memory_alloc_zero(whole->tree->count, sizeof *hangs, e);
+    whole->state = hangs;
+    whole->free_state = free;
+    for (int64_t i = clinging; hangs && i < whole->tree->count; i++) {
+        hangs[i] = true;
+    }
+    return hangs;
+}
+
+// The same of what is left of it after it was cut, in the same order.
+static bool copy_hanging(const Grown *whole, Grown *grown, Error *e)
+{
+    bool *hangs = memory_alloc_zero(grown->tree->count, sizeof *hangs, e);
+    const bool *all = whole->state;
+    grown->state = hangs;
+    grown->free_state = free;
+    for (int64_t i = 0, node = 0; hangs && i < grown->tree->count; i++, node++) {
+        while (whole->tree->id[node] != grown->tree->id[i]) {
+            node++;
+        }
+        hangs[i] = all[node];
+    }
+    return hangs;
+}
+
 bool climber_grow(const void *given, const Recipe *recipe, Grown *whole, Error *e)
 {
     const ClimberParams *params = given;
@@ -170,8 +199,10 @@ bool climber_grow(const void *given, const Recipe *recipe, Grown *whole, Error *
     bool done = whole->tree;
     if (done) {
         Climb climb = {params, recipe, on_surface(envelope), whole->tree};
-        done = plant(&climb, e) && climb_up(&climb, e) &&
-               climber_add_hanging(whole->tree, params, recipe, e);
+        done = plant(&climb, e) && climb_up(&climb, e);
+        int64_t clinging = whole->tree->count;
+        done = done && climber_add_hanging(whole->tree, params, recipe, e) &&
+               note_hanging(whole, clinging, e);
         if (done && whole->tree->count == params->start_count) {
             recipe_warn(recipe, NULL,
                         "nothing grew: no point of '%s' lies within height %g m and spread %g m of "
@@ -188,8 +219,6 @@ bool climber_finish(const void *given, const Recipe *recipe, const Grown *whole,
                     Error *e)
 {
     (void)recipe;
-    (void)whole;
-    (void)e;
     const ClimberParams *params = given;
     OutTree *tree = grown->tree;
     out_tree_pipe_radii(tree, params->radii.exponent, params->radii.tip, params->root_radius);
@@ -197,5 +226,5 @@ bool climber_finish(const void *given, const Recipe *recipe, const Grown *whole,
         float lift = params->offset + tree->radius[i];
         tree->position[i] = vec3_madd(tree->position[i], lift, tree->normal[i]);
     }
-    return true;
+    return copy_hanging(whole, grown, e);
 }

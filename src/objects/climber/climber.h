@@ -22,6 +22,13 @@ typedef struct HangingParams {
     float clump_size; // m, from mass to mass
 } HangingParams;
 
+// Roots by which stems hold to the surface.
+typedef struct RootletParams {
+    float spacing; // m between them along a stem of 3 mm radius; 0 = none
+    float length;  // m, of the longest
+    float radius;  // m, where they leave the stem
+} RootletParams;
+
 typedef struct ClimberParams {
     char *species; // NULL: what it names is applied before the file is loaded (scene/species.h)
     char *climbs;  // name of the object that it climbs
@@ -34,6 +41,7 @@ typedef struct ClimberParams {
     float wander;         // noise of directions
     float offset;         // m, between the stems' lower sides and the surface
     HangingParams hanging;
+    RootletParams rootlets;
     RadiiParams radii;
     float root_radius; // m, at the starts
     LeavesParams leaves;
@@ -66,7 +74,8 @@ enum {
     STREAM_CLIMBER_HANGING = 5,
     STREAM_CLIMBER_LEAVES = 6,
     STREAM_CLIMBER_ORGANS = 7,
-    STREAM_CLIMBER_MASSES = 8
+    STREAM_CLIMBER_MASSES = 8,
+    STREAM_CLIMBER_ROOTLETS = 9
 };
 
 ClimberParams climber_params_default(void); // ivy on a wall
@@ -75,7 +84,12 @@ ClimberParams climber_params_default(void); // ivy on a wall
 bool climber_add_hanging(OutTree *tree, const ClimberParams *params, const Recipe *recipe,
                          Error *e);
 
-// The recipe (see recipe.h).
+// The rootlets of the stems that cling to the surface. hangs: per node, as in Grown.state. The
+// caller frees them with curves_free.
+CurveSet *climber_rootlets(const ClimberParams *params, const OutTree *tree, const bool *hangs,
+                           uint64_t seed, Error *e);
+
+// The recipe (see recipe.h). Grown.state is a list of bool: does the node hang free?
 bool climber_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e);
 bool climber_finish(const void *params, const Recipe *recipe, const Grown *whole, Grown *grown,
                     Error *e);

@@ -29,11 +29,27 @@ static bool add_stems(const ClimberParams *params, const OutTree *tree, const Pl
     return !thick || placing_add(placing, (Part){.mesh = mesh}, CLIMBER_BARK, e);
 }
 
+static bool add_rootlets(const ClimberParams *params, const Grown *grown, const Placing *placing,
+                         Error *e)
+{
+    if (params->rootlets.spacing <= 0.0f) {
+        return true;
+    }
+    uint64_t seed = random_key(placing->recipe->seed, STREAM_CLIMBER_ROOTLETS);
+    Part part = {.kind = PART_CURVES,
+                 .curves = climber_rootlets(params, grown->tree, grown->state, seed, e)};
+    if (part.curves && part.curves->curve_count == 0) {
+        curves_free(part.curves);
+        return true;
+    }
+    return part.curves && placing_add(placing, part, CLIMBER_BARK, e);
+}
+
 bool climber_geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
 {
     const ClimberParams *params = given;
     Stems stems = {.tree = grown->tree};
-    if (!add_stems(params, grown->tree, placing, e) ||
+    if (!add_stems(params, grown->tree, placing, e) || !add_rootlets(params, grown, placing, e) ||
         !point_tree_init(&stems.nodes, grown->tree->position, grown->tree->count, e)) {
         return false;
     }

@@ -33,6 +33,23 @@ static const Table HANGING_TABLE = {.name = "climber_hanging",
                                     .size = sizeof(HangingParams),
                                     .keys = HANGING_KEYS};
 
+static const Key ROOTLET_KEYS[] = {
+    {KEY_OF(RootletParams, spacing, "spacing", KEY_FLOAT), .high = 10, .unit = "m",
+     .doc = "Distance between them along a stem of 3 mm radius where they stand in a bunch; on "
+            "thicker stems up to 6 times as many. 0 = none."},
+    {KEY_OF(RootletParams, length, "length", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
+     .unit = "m", .doc = "Length of the longest."},
+    {KEY_OF(RootletParams, radius, "radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 1, .unit = "m",
+     .doc = "Radius where they leave the stem."},
+    {0},
+};
+
+static const Table ROOTLET_TABLE = {.name = "climber_rootlets",
+                                    .doc = "Short roots by which stems hold to the surface, of the "
+                                           "bark's material.",
+                                    .size = sizeof(RootletParams),
+                                    .keys = ROOTLET_KEYS};
+
 static const Key CLIMBER_KEYS[] = {
     {KEY_OF(ClimberParams, species, "species", KEY_TEXT),
      .doc = "Name of a species of the library, or path of a species file relative to this file: "
@@ -59,6 +76,8 @@ static const Key CLIMBER_KEYS[] = {
      .doc = "Gap between the stems and the surface."},
     {KEY_OF(ClimberParams, hanging, "hanging", KEY_GROUP), .table = &HANGING_TABLE,
      .doc = "Shoots that find nothing to hold and hang free."},
+    {KEY_OF(ClimberParams, rootlets, "rootlets", KEY_GROUP), .table = &ROOTLET_TABLE,
+     .doc = "Short roots by which stems hold to the surface, as ivy's."},
     {KEY_OF(ClimberParams, root_radius, "root_radius", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .unit = "m", .doc = "Radius of the stems where they start."},
     {KEY_OF(ClimberParams, radii, "radii", KEY_GROUP), .table = &radii_table,

@@ -21,7 +21,8 @@ Material material_default(MaterialKind kind)
                   .roughness = 0.5f,
                   .specular = 0.5f,
                   .ior = 1.5f,
-                  .veins = 7.0f};
+                  .veins = 7.0f,
+                  .mortar = {0.42f, 0.375f, 0.30f}};
     if (OPS[kind]->defaults) {
         OPS[kind]->defaults(&m);
     }

@@ -75,14 +75,15 @@ typedef enum PatternKind {
     PATTERN_SILT,       // its water: mud and clear sea (color), the bed in shoals
     PATTERN_HEATH,      // dry turf of open slopes, bushes, stones, worn tracks of soil (color2)
     PATTERN_ICE,        // dark new ice: patches dulled by haze, grains of rime (color2)
-    PATTERN_SNOW        // hummocks, ripples of the wind, pits and crumbs of fallen clods
+    PATTERN_SNOW,       // hummocks, ripples of the wind, pits and crumbs of fallen clods
+    PATTERN_RUBBLE      // a wall of rough stones of all sizes in lime mortar
 } PatternKind;
 
 // Is relief displaced near the camera?
 typedef enum Displacement {
-    DISPLACEMENT_AUTO, // of barks, stone, masonry, dressed, of displacement_texture
+    DISPLACEMENT_AUTO, // of barks, stone, walls and dressed stone, of displacement_texture
     DISPLACEMENT_OFF,  // bumps everywhere
-    DISPLACEMENT_ON    // of patterns that can be: bark, stone, masonry, dressed, noise
+    DISPLACEMENT_ON    // of all patterns that can be
 } Displacement;
 
 typedef enum BarkKind {
@@ -128,6 +129,7 @@ typedef struct Material {
                           // factor on the radiance at the ends of branches)
     Vec3 transmittance;   // MATERIAL_LEAF: diffuse transmittance
     Vec3 autumn_color;    // MATERIAL_LEAF: reflectance of a leaf that has turned
+    Vec3 young_color;     // MATERIAL_LEAF: of a leaf out of its bud; black = paler than color
     Vec3 absorption;      // MATERIAL_DIELECTRIC: per metre, Beer-Lambert
     Vec3 scattering;      // MATERIAL_DIELECTRIC: per metre: clouded, milky, flesh
     float anisotropy;     // of that scattering: mean cosine, -1..1
@@ -158,6 +160,8 @@ typedef struct Material {
     float twist;        // degrees per metre, of the grain about the stem
     float bark_height;  // m along the wood up to which old bark reaches; 0 = by thickness alone
     float veins;        // PATTERN_LEAF: side veins on each half; 0 = veins along the blade
+    float pale_veins;   // PATTERN_LEAF, 0..1: how much paler than the blade they are from above
+    Vec3 mortar;        // PATTERN_RUBBLE: reflectance of its mortar
     float snow_line, grass_line;   // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
                                    // and below which they lie; 0 = none
     ColorStop *colors;             // PATTERN_ALTITUDE: borrowed, `at` ascends; NULL = from color to

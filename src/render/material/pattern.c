@@ -126,6 +126,8 @@ float pattern_height(const Material *m, const SurfacePoint *point)
     case PATTERN_MASONRY:
     case PATTERN_DRESSED:
         return pattern_masonry_height(m, point);
+    case PATTERN_RUBBLE:
+        return pattern_rubble_height(m, point);
     case PATTERN_STONE:
         return pattern_stone_height(m, point);
     case PATTERN_STRATA:
@@ -167,39 +169,23 @@ float pattern_height_size(const Material *m)
 }
 
 static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShade *) = {
-    [PATTERN_BARK] = pattern_bark,
-    [PATTERN_MASONRY] = pattern_masonry,
-    [PATTERN_DRESSED] = pattern_masonry,
-    [PATTERN_STONE] = pattern_stone,
-    [PATTERN_GROUND] = pattern_ground,
-    [PATTERN_LEAF] = pattern_leaf,
-    [PATTERN_CORALLITE] = pattern_corallite,
-    [PATTERN_REEF] = pattern_reef,
-    [PATTERN_YOUTH] = pattern_youth,
-    [PATTERN_BRAIN] = pattern_brain,
-    [PATTERN_SAND] = pattern_sand,
-    [PATTERN_MOUNTAIN] = pattern_mountain,
-    [PATTERN_BADLANDS] = pattern_badlands,
-    [PATTERN_WATER] = pattern_water,
-    [PATTERN_ALTITUDE] = pattern_altitude,
-    [PATTERN_ALPS] = pattern_alps,
-    [PATTERN_VOLCANO] = pattern_volcano,
-    [PATTERN_STRATA] = pattern_strata,
-    [PATTERN_DUNES] = pattern_dunes,
-    [PATTERN_HILLS] = pattern_hills,
-    [PATTERN_COAST] = pattern_coast,
-    [PATTERN_BRAIDED] = pattern_braided,
-    [PATTERN_GLACIAL] = pattern_glacial,
-    [PATTERN_NOISE] = noise_pattern,
-    [PATTERN_KARST] = pattern_karst,
-    [PATTERN_MUD] = pattern_mud,
-    [PATTERN_FLOODPLAIN] = pattern_floodplain,
-    [PATTERN_RIVER] = pattern_river,
-    [PATTERN_DELTA] = pattern_delta,
-    [PATTERN_SILT] = pattern_silt,
-    [PATTERN_HEATH] = pattern_heath,
-    [PATTERN_ICE] = pattern_ice,
-    [PATTERN_SNOW] = pattern_snow,
+    [PATTERN_BARK] = pattern_bark,         [PATTERN_MASONRY] = pattern_masonry,
+    [PATTERN_DRESSED] = pattern_masonry,   [PATTERN_RUBBLE] = pattern_rubble,
+    [PATTERN_STONE] = pattern_stone,       [PATTERN_GROUND] = pattern_ground,
+    [PATTERN_LEAF] = pattern_leaf,         [PATTERN_CORALLITE] = pattern_corallite,
+    [PATTERN_REEF] = pattern_reef,         [PATTERN_YOUTH] = pattern_youth,
+    [PATTERN_BRAIN] = pattern_brain,       [PATTERN_SAND] = pattern_sand,
+    [PATTERN_MOUNTAIN] = pattern_mountain, [PATTERN_BADLANDS] = pattern_badlands,
+    [PATTERN_WATER] = pattern_water,       [PATTERN_ALTITUDE] = pattern_altitude,
+    [PATTERN_ALPS] = pattern_alps,         [PATTERN_VOLCANO] = pattern_volcano,
+    [PATTERN_STRATA] = pattern_strata,     [PATTERN_DUNES] = pattern_dunes,
+    [PATTERN_HILLS] = pattern_hills,       [PATTERN_COAST] = pattern_coast,
+    [PATTERN_BRAIDED] = pattern_braided,   [PATTERN_GLACIAL] = pattern_glacial,
+    [PATTERN_NOISE] = noise_pattern,       [PATTERN_KARST] = pattern_karst,
+    [PATTERN_MUD] = pattern_mud,           [PATTERN_FLOODPLAIN] = pattern_floodplain,
+    [PATTERN_RIVER] = pattern_river,       [PATTERN_DELTA] = pattern_delta,
+    [PATTERN_SILT] = pattern_silt,         [PATTERN_HEATH] = pattern_heath,
+    [PATTERN_ICE] = pattern_ice,           [PATTERN_SNOW] = pattern_snow,
 };
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)

@@ -36,6 +36,8 @@ void pattern_bark(const Material *material, const SurfacePoint *point, PatternSh
 float pattern_bark_height(const Material *material, const SurfacePoint *point); // m
 void pattern_masonry(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_masonry_height(const Material *material, const SurfacePoint *point); // m
+void pattern_rubble(const Material *material, const SurfacePoint *point, PatternShade *shade);
+float pattern_rubble_height(const Material *material, const SurfacePoint *point); // m
 void pattern_stone(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_stone_height(const Material *material, const SurfacePoint *point); // m
 void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);

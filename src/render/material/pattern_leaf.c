@@ -62,6 +62,17 @@ static float veins(Vec2 uv, float count, float blur)
     return fmaxf(fmaxf(midrib, 0.85f * vein), veinlets(run, side, count, blur));
 }
 
+// How far a blade is paler about its midrib (of a lobed one, those of all lobes) and its side
+// veins: along the vein nearly white, beside it in a band that fades.
+static float pale_band(Vec2 uv, float count, float blur)
+{
+    float side = fabsf(uv.x - 0.5f);
+    float midrib = line(side, lerpf(0.045f, 0.012f, uv.y), blur);
+    float band = 0.3f * (1.0f - smoothstepf(0.0f, lerpf(0.2f, 0.08f, uv.y), side));
+    float fine = count > 0.0f ? 0.3f * veins(uv, count, blur) : 0.0f;
+    return fmaxf(fmaxf(0.8f * midrib, fine), band);
+}
+
 // Dead spots that insects and fungi leave: 1 inside, in a few places of some leaves. seed: of the
 // leaf.
 static float dead_spot(Vec2 uv, float seed, float blur)
@@ -102,6 +113,10 @@ void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *sh
     Vec3 pale = vec3(1.3f * shade->color.x + 0.015f, 1.2f * shade->color.y + 0.015f,
                      1.2f * shade->color.z + 0.008f);
     shade->color = vec3_lerp(blade, pale, 0.8f * vein);
+    if (m->pale_veins > 0.0f && blur < 0.2f) {
+        float light = m->pale_veins * pale_band(point->uv, m->veins, blur);
+        shade->color = vec3_lerp(shade->color, vec3(0.30f, 0.36f, 0.20f), light);
+    }
     float clear = 1.0f + 0.25f * blotch; // blotches thin or thicken the blade
     shade->transmittance = vec3_mul(
         shade->transmittance,

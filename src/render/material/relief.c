@@ -18,6 +18,7 @@ static bool displaces_pattern(const Material *m)
 {
     return m->pattern == PATTERN_BARK || m->pattern == PATTERN_STONE ||
            m->pattern == PATTERN_MASONRY || m->pattern == PATTERN_DRESSED ||
+           m->pattern == PATTERN_RUBBLE ||
            ((m->pattern == PATTERN_NOISE || m->pattern == PATTERN_STRATA ||
              m->pattern == PATTERN_BADLANDS || m->pattern == PATTERN_SNOW || shows_faces(m)) &&
             m->displacement == DISPLACEMENT_ON);
