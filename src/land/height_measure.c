@@ -182,8 +182,8 @@ static double horton_ratio(const Survey *s, int which)
     return isnan(slope) ? slope : exact_exp(slope);
 }
 
-// Hack's 0.55 to 0.6 is of rivers followed to their mouths. A square of land cuts large rivers short:
-// surveyed squares have 0.455 to 0.54 by this code (docs/references.md).
+// Hack's 0.55 to 0.6 is of rivers followed to their mouths. A square of land cuts large rivers
+// short: surveyed squares have 0.455 to 0.54 by this code (docs/references.md).
 static double hack_exponent(const Survey *s)
 {
     LineFit fit = {0};
