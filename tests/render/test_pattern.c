@@ -462,17 +462,23 @@ static void test_ground(void **state)
     assert_true(green > 2400 && earth > 40);
 }
 
+// A point on the midrib of a leaf 6 by 10 cm, from near.
+static SurfacePoint on_midrib(void)
+{
+    return (SurfacePoint){.normal = vec3(0, 0, 1),
+                          .geometric_normal = vec3(0, 0, 1),
+                          .tangent_u = vec3(0.06f, 0, 0),
+                          .tangent_v = vec3(0, 0.1f, 0),
+                          .uv = {0.5f, 0.4f},
+                          .footprint = 1e-5f};
+}
+
 static void test_leaf_veins(void **state)
 {
     (void)state;
     Material m = material_default(MATERIAL_LEAF);
     m.pattern = PATTERN_LEAF;
-    SurfacePoint p = {.normal = vec3(0, 0, 1),
-                      .geometric_normal = vec3(0, 0, 1),
-                      .tangent_u = vec3(0.06f, 0, 0),
-                      .tangent_v = vec3(0, 0.1f, 0),
-                      .uv = {0.5f, 0.4f},
-                      .footprint = 1e-5f};
+    SurfacePoint p = on_midrib();
     PatternShade midrib = shade_of(&m, &p);
     double blade = 0.0, through = 0.0, red = 0.0;
     for (int i = 0; i < 1000; i++) {
@@ -500,12 +506,7 @@ static void test_leaf_pale_veins(void **state)
     m.color = m.color2 = vec3(0.03f, 0.06f, 0.015f);
     pale = m;
     pale.pale_veins = 1.0f;
-    SurfacePoint p = {.normal = vec3(0, 0, 1),
-                      .geometric_normal = vec3(0, 0, 1),
-                      .tangent_u = vec3(0.06f, 0, 0),
-                      .tangent_v = vec3(0, 0.1f, 0),
-                      .uv = {0.5f, 0.4f},
-                      .footprint = 1e-5f};
+    SurfacePoint p = on_midrib();
     assert_true(shade_of(&pale, &p).color.y > 2.5f * shade_of(&m, &p).color.y);
     double before = 0.0, after = 0.0;
     for (int i = 0; i < 1000; i++) {

@@ -43,7 +43,7 @@ void pattern_season(const Material *m, const SurfacePoint *point, PatternShade *
     Vec3 pale = vec3(1.55f * shade->color.x, 1.35f * shade->color.y, 1.1f * shade->color.z);
     Vec3 thin = vec3(2.1f * shade->transmittance.x, 1.8f * shade->transmittance.y,
                      1.5f * shade->transmittance.z);
-    if (fmaxf(m->young_color.x, fmaxf(m->young_color.y, m->young_color.z)) > 0.0f) {
+    if (vec3_largest(m->young_color) > 0.0f) {
         pale = m->young_color;
         thin = vec3_scale(m->young_color, 0.9f); // thin: it lets as much through as it sends back
     }
