@@ -2,6 +2,7 @@
 
 #include "base/exact_math.h"
 #include "base/memory.h"
+#include "land/basin_hypsometry.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -64,7 +65,8 @@ bool drainage_orders(const Drainage *drainage, double least_area, uint8_t *order
     return true;
 }
 
-enum { MAX_ORDERS = 24, AREA_BINS = 64 };
+// BASIN_ORDER: Strahler (1952) measures basins of third and fourth order.
+enum { MAX_ORDERS = 24, AREA_BINS = 64, BASIN_ORDER = 3 };
 
 typedef struct OrderSums {
     double streams, length, area;
@@ -227,7 +229,10 @@ static double hypsometric_integral(const HeightField *field, double *relief)
 static bool list_survey(const Survey *s, MeasureList *list, Error *e)
 {
     double relief, nan = (double)NAN;
-    double integral = hypsometric_integral(s->field, &relief);
+    double integral = hypsometric_integral(s->field, &relief), basins;
+    if (!basin_hypsometry(s->field, s->drainage, s->order, BASIN_ORDER, &basins, e)) {
+        return false;
+    }
     double share = s->river_samples > 0 ? (double)s->draining / (double)s->river_samples : nan;
     return measures_add(list, "relief", relief, "m", nan, nan, e) &&
            measures_add(list, "river_orders", s->top, "", nan, nan, e) &&
@@ -237,6 +242,7 @@ static bool list_survey(const Survey *s, MeasureList *list, Error *e)
            measures_add(list, "hack_exponent", hack_exponent(s), "", 0.455, 0.6, e) &&
            measures_add(list, "concavity", concavity(s), "", 0.225, 0.575, e) &&
            measures_add(list, "hypsometric_integral", integral, "", 0.35, 0.6, e) &&
+           measures_add(list, "basin_hypsometric_integral", basins, "", 0.35, 0.6, e) &&
            measures_add(list, "pits", (double)s->drainage->pits, "", nan, nan, e) &&
            measures_add(list, "rivers_that_drain", share, "", nan, nan, e);
 }
