@@ -97,7 +97,7 @@ RUNPATH_LIBRARY = $(call RUNPATH,$$ORIGIN:$$ORIGIN/ramify)
 RUNPATH_TEST    = $(call RUNPATH,$$ORIGIN/../..)
 
 SOURCES   := $(sort $(wildcard src/*.c $(foreach d,src/* src/*/*,$d/*.c $d/*.cpp)))
-COMMANDS  := render turntable grow measure fit export merge batch replay compare golden info species schema completion help
+COMMANDS  := render turntable grow measure fit export merge develop batch replay compare golden info species schema completion help
 MANUAL    := $(OUT)/man/ramify.1 $(COMMANDS:%=$(OUT)/man/ramify-%.1) $(OUT)/completion/ramify $(OUT)/completion/_ramify
 # Text files that become arrays of the program: report.css is report_css[].
 EMBEDDED  := $(sort $(foreach e,css html js bash zsh sh,$(wildcard src/*/*.$e src/*/*/*.$e)))

@@ -21,17 +21,31 @@ RamifyRun command_run(const Options *options, Progress *progress)
                        .user = progress};
 }
 
+// The overrides of all options; list: room for MAX_OVERRIDES + MAX_KEYS. Returns their number.
+static int collect_overrides(const Options *options, const char **list)
+{
+    int count = 0;
+    for (int i = 0; i < options->override_count; i++) {
+        list[count++] = options->overrides[i];
+    }
+    for (int i = 0; i < options->key_count; i++) {
+        list[count++] = options->keys[i];
+    }
+    return count;
+}
+
 RamifyScene *command_scene(const Options *options, RamifyError *e)
 {
     const char *overrides[MAX_OVERRIDES + MAX_KEYS];
-    int count = 0;
-    for (int i = 0; i < options->override_count; i++) {
-        overrides[count++] = options->overrides[i];
-    }
-    for (int i = 0; i < options->key_count; i++) {
-        overrides[count++] = options->keys[i];
-    }
+    int count = collect_overrides(options, overrides);
     return ramify_scene_load(options->operand, overrides, count, e);
+}
+
+RamifyScene *command_settings(const Options *options, RamifyError *e)
+{
+    const char *overrides[MAX_OVERRIDES + MAX_KEYS];
+    int count = collect_overrides(options, overrides);
+    return ramify_scene_load_settings(options->operand, overrides, count, e);
 }
 
 bool command_check_memory(const Options *options, const RamifyScene *scene, RamifyError *e)

@@ -14,6 +14,7 @@ bool command_measure(const Options *options, RamifyError *e);    // measure.c
 bool command_fit(const Options *options, RamifyError *e);        // fit.c
 bool command_export(const Options *options, RamifyError *e);     // export.c
 bool command_merge(const Options *options, RamifyError *e);      // merge.c
+bool command_develop(const Options *options, RamifyError *e);    // develop.c
 bool command_batch(const Options *options, RamifyError *e);      // batch/batch.c
 bool command_replay(const Options *options, RamifyError *e);     // replay.c
 bool command_compare(const Options *options, RamifyError *e);    // compare.c
@@ -29,6 +30,9 @@ RamifyRun command_run(const Options *options, Progress *progress);
 
 // Loads the scene with the overrides of --set and the render options applied.
 RamifyScene *command_scene(const Options *options, RamifyError *e);
+
+// The settings of a picture (ramify_scene_load_settings) with the same.
+RamifyScene *command_settings(const Options *options, RamifyError *e);
 
 // The turntable of the options; ramify_turntable's number of frames and range are as given there.
 bool command_turn(const Options *options, RamifyTurntable *turntable, RamifyError *e);

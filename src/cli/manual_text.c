@@ -160,6 +160,17 @@ static const ManualText TEXTS[] = {
                    "ramify render pine.yaml --samples 64 --sample-range 0:32 -o a.exr; "
                    "ramify render pine.yaml --samples 64 --sample-range 32:64 -o b.exr; "
                    "ramify merge a.exr b.exr -o pine.exr"}}},
+    {.command = "develop",
+     .paragraphs =
+         {"Develops the film in the .exr of a finished rendering once more, as a "
+          "darkroom does: with another exposure, view, contrast, white balance, bloom, "
+          "sharpening or grain, with or without the denoiser. Only keys of film that come "
+          "after the samples can change. Without a change the result has the bits of the "
+          "picture that the rendering wrote; the .exr stays as it is."},
+     .examples = {{"warmer, with the grain of a film",
+                   "ramify develop pine.exr --set film.white_balance=5600 --set film.grain=0.012 "
+                   "-o pine-film.png"},
+                  {"half a stop brighter", "ramify develop pine.exr --exposure 0.5 -o light.png"}}},
     {.command = "batch",
      .paragraphs =
          {"Renders the tiles of a picture (--tiles), also by ranges of their samples "

@@ -10,11 +10,13 @@
      BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT))
 #define SCENES (GROWS | BIT(COMMAND_INFO) | BIT(COMMAND_REPLAY))
 #define COMPARES (BIT(COMMAND_COMPARE) | BIT(COMMAND_GOLDEN))
-#define EVERY                                                                                      \
-    (SCENES | COMPARES | BIT(COMMAND_MERGE) | BATCH | BIT(COMMAND_SPECIES) | BIT(COMMAND_SCHEMA) | \
+#define EVERY                                                                         \
+    (SCENES | COMPARES | JOINS | BATCH | BIT(COMMAND_SPECIES) | BIT(COMMAND_SCHEMA) | \
      BIT(COMMAND_COMPLETION) | BIT(COMMAND_HELP))
 #define RENDERS (BIT(COMMAND_RENDER) | BIT(COMMAND_TURNTABLE))
 #define BATCH BIT(COMMAND_BATCH)
+#define DEVELOPS BIT(COMMAND_DEVELOP)
+#define JOINS (BIT(COMMAND_MERGE) | DEVELOPS)
 #define PICTURES (RENDERS | BATCH)
 #define ESTIMATED (PICTURES | BIT(COMMAND_INFO))
 #define TURNS BIT(COMMAND_TURNTABLE)
@@ -26,12 +28,12 @@ const Option option_table[] = {
      .value = "FILE",
      .offset = AT(output),
      .type = OPTION_TEXT,
-     .commands =
-         PICTURES | BIT(COMMAND_GROW) | BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT) | BIT(COMMAND_MERGE),
+     .commands = PICTURES | BIT(COMMAND_GROW) | BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT) | JOINS,
      .letter = 'o',
      .doc =
          "what to write; render: .png or .jpg with the .exr beside it; merge: .png or .jpg with "
-         "the .exr beside it; turntable: .mp4, or .png, .jpg or .exr with the frame's number in "
+         "the .exr beside it; develop: .png or .jpg; turntable: .mp4, or .png, .jpg or .exr with "
+         "the frame's number in "
          "the name, as in oak-%04d.png; batch: with --tiles .png or .jpg with the .exr beside it, "
          "with --frames .mp4, or .png, .jpg or .exr with the frame's number in the name; "
          "grow: .swc, .json, .graphml or, of a leaf's veins or a terrain's heights, .png or .exr "
@@ -276,17 +278,17 @@ const Option option_table[] = {
      .low = -50,
      .high = 50,
      .type = OPTION_REAL,
-     .commands = PICTURES,
+     .commands = PICTURES | DEVELOPS,
      .doc = "brightness of the picture in stops; each stop doubles it"},
     {.name = "denoise",
      .scene_key = "film.denoise",
      .type = OPTION_YES,
-     .commands = ESTIMATED,
+     .commands = ESTIMATED | DEVELOPS,
      .doc = "remove the remaining noise from the .png"},
     {.name = "no-denoise",
      .scene_key = "film.denoise",
      .type = OPTION_NO,
-     .commands = ESTIMATED,
+     .commands = ESTIMATED | DEVELOPS,
      .doc = "keep the noise in the .png"},
     {.name = "no-preview",
      .offset = AT(no_preview),
@@ -360,8 +362,10 @@ const Option option_table[] = {
      .value = "PATH=VALUE",
      .offset = AT(overrides),
      .type = OPTION_SET,
-     .commands = SCENES | BATCH,
-     .doc = "change the scene: --set camera.fov=35 --set objects.oak.tree.height=9"},
+     .commands = SCENES | BATCH | DEVELOPS,
+     .doc =
+         "change the scene: --set camera.fov=35 --set objects.oak.tree.height=9; develop: keys of "
+         "film"},
     {.name = "vary",
      .value = "PATH=LOW:HIGH",
      .offset = AT(varied),
@@ -556,7 +560,7 @@ const Option option_table[] = {
      .low = 1,
      .high = 1024,
      .type = OPTION_INT,
-     .commands = SCENES | BIT(COMMAND_GOLDEN) | BIT(COMMAND_MERGE) | BATCH,
+     .commands = SCENES | BIT(COMMAND_GOLDEN) | JOINS | BATCH,
      .doc = "use N threads; the result does not depend on it; batch: those of one task"},
     {.name = "json",
      .offset = AT(json),
@@ -566,7 +570,7 @@ const Option option_table[] = {
     {.name = "quiet",
      .offset = AT(quiet),
      .type = OPTION_YES,
-     .commands = SCENES | BIT(COMMAND_GOLDEN) | BIT(COMMAND_MERGE) | BATCH,
+     .commands = SCENES | BIT(COMMAND_GOLDEN) | JOINS | BATCH,
      .letter = 'q',
      .doc = "print only errors"},
     {.name = "help",
@@ -616,6 +620,10 @@ const Command command_table[COMMAND_COUNT] = {
          "result has the same bits\nas the picture rendered at once. Exit status 1 if "
          "pixels are missing.\n",
          command_merge},
+    [COMMAND_DEVELOP] = {"develop", "PICTURE.exr", "develop a rendered picture anew",
+                         "Changes exposure, contrast, colours, sharpening or grain, and denoises "
+                         "anew, without tracing:\n--set film.KEY=VALUE for each.\n",
+                         command_develop},
     [COMMAND_BATCH] = {"batch", "[status|run|merge|submit] SCENE|FOLDER",
                        "render a picture or an animation as tasks of a cluster",
                        "Plans the tasks in a folder and gives them to the engine; what is done is "

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "image/denoise.h"
 #include "image/downsample.h"
+#include "image/grain.h"
 #include "image/highlights.h"
 #include "image/oidn.h"
 #include "image/sharpen.h"
@@ -247,21 +248,30 @@ Image *picture_develop(const Scene *scene, const Film *film, bool denoise, const
     return display;
 }
 
-// display: of the film's size.
-static bool write_developed(const char *file, const Scene *scene, const Image *display,
+static bool replace(Image **image, Image *next)
+{
+    image_free(*image);
+    *image = next;
+    return next;
+}
+
+// What comes after the view. image: of the film's size; becomes what is shown, NULL on failure.
+static bool finish(const Scene *scene, Image **image, Error *e)
+{
+    return (scene->downsample <= 1 ||
+            replace(image, image_downsample(*image, scene->downsample, e))) &&
+           (scene->sharpen <= 0.0f || replace(image, image_sharpen(*image, scene->sharpen, e))) &&
+           (scene->grain <= 0.0f ||
+            replace(image, image_grain(*image, scene->grain, scene->render.noise_seed, e)));
+}
+
+// display: of the film's size; becomes what is shown.
+static bool write_developed(const char *file, const Scene *scene, Image **display,
                             const char *metadata, Error *e)
 {
-    bool reduced = scene->downsample > 1;
-    Image *small = reduced ? image_downsample(display, scene->downsample, e) : NULL;
-    const Image *sized = reduced ? small : display;
-    Image *sharp = sized && scene->sharpen > 0.0f ? image_sharpen(sized, scene->sharpen, e) : NULL;
-    const Image *shown = scene->sharpen > 0.0f ? sharp : sized;
     bool deep = scene->png_depth == 16 && file_name_ends(file, ".png");
-    bool done = shown && (deep ? image_write_display16(file, shown, metadata, e)
-                               : image_write_display(file, shown, metadata, e));
-    image_free(small);
-    image_free(sharp);
-    return done;
+    return finish(scene, display, e) && (deep ? image_write_display16(file, *display, metadata, e)
+                                              : image_write_display(file, *display, metadata, e));
 }
 
 static bool write_display(const char *file, const Scene *scene, const Film *film, bool denoise,
@@ -269,7 +279,7 @@ static bool write_display(const char *file, const Scene *scene, const Film *film
 {
     Image *display = check_ending(file, e) ? picture_develop(scene, film, denoise, run, e) : NULL;
     char *metadata = display ? make_metadata(scene, mark, e) : NULL;
-    bool done = metadata && write_developed(file, scene, display, metadata, e);
+    bool done = metadata && write_developed(file, scene, &display, metadata, e);
     free(metadata);
     image_free(display);
     return done;
@@ -367,7 +377,7 @@ bool picture_write_rgba(const char *file, const Scene *scene, const float *rgba,
         done = image_write_exr(file, &layer, 1, NULL, e);
     } else {
         Image *display = tone_map(image, NULL, &scene->tone, e);
-        done = display && write_developed(file, scene, display, NULL, e);
+        done = display && write_developed(file, scene, &display, NULL, e);
         image_free(display);
     }
     image_free(image);

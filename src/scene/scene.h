@@ -98,6 +98,7 @@ typedef struct Scene {
     int png_depth;  // bits of a channel in PNGs: 8 or 16
     int downsample; // pixels of the film a side of a developed picture's pixel
     float sharpen;  // of the developed picture: factor on fine contrast beyond 1; 0 = none
+    float grain;    // standard deviation of its display values at middle grey; 0 = none
     bool denoise;
     SceneDenoiser denoiser;
     RenderParams render;

@@ -132,6 +132,10 @@ static const Key FILM_KEYS[] = {
     {KEY_OF(Scene, sharpen, "sharpen", KEY_FLOAT), .high = 5,
      .doc = "Sharpening of the developed picture, as a camera does it: 0 = none, 0.5 = moderate, 1 "
             "= strong. It raises the contrast of detail of a pixel or two, without halos."},
+    {KEY_OF(Scene, grain, "grain", KEY_FLOAT), .high = 1,
+     .doc = "Film grain of the developed picture: the standard deviation of the noise at middle "
+            "grey, as a share of white; black and white have none. 0.01 = fine, 0.03 = a fast "
+            "film. An EXR has none. Frames differ with `animation.vary_noise`."},
     {KEY_OF(Scene, denoise, "denoise", KEY_BOOL),
      .doc = "Denoise the developed image. An EXR file keeps its raw layers and gets the layer "
             "`denoised` beside them."},

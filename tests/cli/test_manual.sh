@@ -113,7 +113,7 @@ END
 printf '#!/bin/sh\necho 1\n' >bin/sbatch # examples for a cluster
 chmod +x bin/ramify bin/sbatch
 mkdir -p golden && cp pine.yaml golden/
-"$RAMIFY" render pine.yaml -o a.png --quiet && cp a.png b.png && cp a.exr b.exr
+"$RAMIFY" render pine.yaml -o a.png --quiet && cp a.png b.png && cp a.exr b.exr && cp a.exr pine.exr
 count=0
 for page in ramify*.1; do
     awk '/^\.Bd -literal/ {inside = 1; next} /^\.Ed/ {inside = 0} inside' "$page" |
