@@ -222,7 +222,7 @@ fine ash ash 10
 still figure-9 field-grid
 still twisted twisted
 still mesh-crown mesh-crown
-still forest forest
+fine forest forest 4
 if is_wanted figure-10; then
     for time in 0.2 0.45 0.62 0.8 0.9 1; do
         panel oak --size 640x540 --denoise --samples 16 --set camera.fov=34 \
@@ -287,7 +287,7 @@ if is_wanted coral-figure-2; then
         --set objects.coral.coral.size=0.52 --set objects.coral.coral.height=0.6
     sheet coral-figure-2 2x2
 fi
-fine coral-reef coral-reef 6
+still coral-reef coral-reef
 still coral-staghorn coral-staghorn
 
 # ---- frost ----
