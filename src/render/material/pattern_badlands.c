@@ -221,7 +221,7 @@ static void crumble(const SurfacePoint *point, Wall *w)
     }
 }
 
-// The skin of all but the hardest beds is clay that rain has washed over them. Ledges shed it.
+// The skin of clay, of whatever bed, that steep walls and chips of ledges do not hold.
 static void dry(const Material *m, const SurfacePoint *point, Wall *w)
 {
     if (m->cracks > 0.0f) {

@@ -7,8 +7,6 @@
 #include "render/material/pattern.h"
 #include "render/material/pattern_noise.h"
 
-#include <stddef.h>
-
 enum { SEED_CLAY = 1301, SEED_BEND = 1311, SEED_SEALED = 1317, SIZES = 4 };
 
 typedef struct Pieces {
