@@ -298,6 +298,11 @@ static const Key MATERIAL_KEYS[] = {
             "band along them: 0 = little, 1 = nearly white, as on old ivy."},
     {KEY_OF(Material, mortar, "mortar", KEY_COLOR), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern rubble: reflectance of the mortar, before dirt and algae."},
+    {KEY_OF(Material, cracks, "cracks", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
+     .doc = "Pattern badlands: how far its clay has swollen and dried: on slopes popcorn, polygons "
+            "of two decimetres that break into crumbs down to a centimetre; on washes plates "
+            "with curled edges. Their size is natural, whatever pattern_scale; they need a "
+            "pattern_depth and, to be true geometry, displacement."},
     {KEY_OF(Material, snow_line, "snow_line", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern mountain: altitude above which snow lies, as a fraction of the relief; 0 = no "
             "snow."},

@@ -1,6 +1,7 @@
 // Noise and the patterns made of it.
 #include "render/material/pattern.h"
 
+#include "base/color.h"
 #include "base/random.h"
 #include "base/strata.h"
 #include "render/material/bsdf.h"
@@ -729,6 +730,63 @@ static void test_runnels_follow_the_fall(void **state)
     }
 }
 
+// Height of dried clay at a point, and how dark its cracks are, by the pattern's relief and colour.
+typedef struct DriedSample {
+    double height, value; // m; luminance
+} DriedSample;
+
+static DriedSample dried_at(const Material *m, Vec3 p, Vec3 normal, float wet, float footprint)
+{
+    SurfacePoint point = on_stone(p, footprint);
+    point.normal = point.geometric_normal = normal;
+    point.site.y = wet;
+    PatternShade shade = {.color = m->color, .normal = normal};
+    pattern_apply(m, &point, &shade);
+    return (DriedSample){(double)pattern_height(m, &point), (double)luminance(shade.color)};
+}
+
+// Dried clay stands in pieces a few centimetres high between cracks, dark where they are deep, on
+// walls and on washes; a pixel wider than its pieces and a wall without cracks show none of it.
+static void test_clay_dries_to_pieces(void **state)
+{
+    (void)state;
+    Material wet = material_default(MATERIAL_DIFFUSE);
+    wet.pattern = PATTERN_BADLANDS;
+    wet.pattern_depth = 0.4f;
+    wet.pattern_scale = 10.0f;
+    Material dry = wet;
+    dry.cracks = 1.0f;
+    static const Vec3 NORMAL[] = {{0.6f, 0.8f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+    for (int k = 0; k < 2; k++) {
+        const int count = 4000;
+        double low = 0.0, high = 0.0, deep = 0.0, top = 0.0, squares = 0.0;
+        int deep_count = 0, top_count = 0;
+        for (int i = 0; i < count; i++) {
+            Vec3 p = random_point((uint64_t)i, 40.0f);
+            DriedSample a = dried_at(&wet, p, NORMAL[k], (float)k, 0.001f);
+            DriedSample b = dried_at(&dry, p, NORMAL[k], (float)k, 0.001f);
+            DriedSample far_a = dried_at(&wet, p, NORMAL[k], (float)k, 0.5f);
+            DriedSample far_b = dried_at(&dry, p, NORMAL[k], (float)k, 0.5f);
+            assert_true(far_a.height == far_b.height && far_a.value == far_b.value);
+            double h = b.height - a.height, tone = b.value / a.value;
+            low = fmin(low, h);
+            high = fmax(high, h);
+            squares += h * h / count;
+            deep += h < -0.02 ? tone : 0.0;
+            deep_count += h < -0.02;
+            top += h > 0.0 ? tone : 0.0;
+            top_count += h > 0.0;
+        }
+        printf("    %s: %.3f to %.3f m, +-%.4f; cracks %.2f, tops %.2f as light\n",
+               k == 0 ? "wall" : "wash", low, high, sqrt(squares), deep / deep_count,
+               top / top_count);
+        assert_true(low > -0.12 && low < -0.02 && high < 0.06 && high > 0.01);
+        assert_true(sqrt(squares) > 0.004);
+        assert_true(deep_count > count / 200 && top_count > count / 50);
+        assert_true(deep / deep_count < 0.9 * top / top_count);
+    }
+}
+
 // A mat of moss has a relief of its own, also where the stone has none and is not displaced.
 static void test_moss_is_no_paint(void **state)
 {
@@ -1073,6 +1131,7 @@ int main(void)
         cmocka_unit_test(test_stone_moss),
         cmocka_unit_test(test_karst_is_fluted),
         cmocka_unit_test(test_runnels_follow_the_fall),
+        cmocka_unit_test(test_clay_dries_to_pieces),
         cmocka_unit_test(test_contacts_are_sharp_and_ledges_end_at_them),
         cmocka_unit_test(test_moss_is_no_paint),
         cmocka_unit_test(test_masonry),

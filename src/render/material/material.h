@@ -162,6 +162,7 @@ typedef struct Material {
     float veins;        // PATTERN_LEAF: side veins on each half; 0 = veins along the blade
     float pale_veins;   // PATTERN_LEAF, 0..1: how much paler than the blade they are from above
     Vec3 mortar;        // PATTERN_RUBBLE: reflectance of its mortar
+    float cracks;       // PATTERN_BADLANDS, 0..1: how far its clay has dried to crumbs and plates
     float snow_line, grass_line;   // PATTERN_MOUNTAIN: altitudes, 0..1 of the land's relief, above
                                    // and below which they lie; 0 = none
     ColorStop *colors;             // PATTERN_ALTITUDE: borrowed, `at` ascends; NULL = from color to

@@ -8,6 +8,7 @@
 #include "base/strata.h"
 #include "render/material/pattern.h"
 #include "render/material/pattern_beds.h"
+#include "render/material/pattern_clay.h"
 #include "render/material/pattern_mix.h"
 #include "render/material/pattern_noise.h"
 #include "render/material/pattern_slopes.h"
@@ -136,6 +137,7 @@ typedef struct Wall {
     float tone;        // of the lamina, 0..1
     float shade;       // 0..1: in cracks and under ledges
     float chips, chip; // share covered by chips of the ledges above; tone of one
+    float crumb;       // about -1..1: tone of a crumb of dried clay
     float height;      // m: of all of it
 } Wall;
 
@@ -219,6 +221,19 @@ static void crumble(const SurfacePoint *point, Wall *w)
     }
 }
 
+// The skin of clay, of whatever bed, that steep walls and chips of ledges do not hold.
+static void dry(const Material *m, const SurfacePoint *point, Wall *w)
+{
+    if (m->cracks > 0.0f) {
+        float upright = fabsf(surface_smooth_normal(point).y);
+        float stays = smoothstepf(0.2f, 0.65f, upright) * (1.0f - 0.6f * w->chips);
+        DriedClay clay = pattern_dried_clay(point, m->cracks * stays, 0.0f);
+        w->height += clay.height;
+        w->shade = fmaxf(w->shade, clay.shade);
+        w->crumb = clay.tone;
+    }
+}
+
 static Wall wall_at(const Material *m, const SurfacePoint *point)
 {
     float s = 0.1f * (m->pattern_scale > 0.0f ? m->pattern_scale : 40.0f);
@@ -240,6 +255,7 @@ static Wall wall_at(const Material *m, const SurfacePoint *point)
         scatter_chips(point, &w, fabsf(normal.y));
     }
     crumble(point, &w);
+    dry(m, point, &w);
     return w;
 }
 
@@ -272,7 +288,7 @@ static Ground wall(const Material *m, const SurfacePoint *point, Vec3 base)
                                        : own_bed(m, point, base, w.rough)};
     float dust = 0.1f + 0.2f * w.veil - 0.06f * w.run + 0.25f * gully;
     g.color = vec3_lerp(g.color, mud, clampf(dust, 0.02f, 0.5f));
-    float light = 1.0f + 0.45f * (w.tone - 0.5f) + 0.1f * w.rough + 0.07f * w.run;
+    float light = 1.0f + 0.45f * (w.tone - 0.5f) + 0.1f * w.rough + 0.07f * w.run + 0.25f * w.crumb;
     g.color = vec3_scale(g.color, clampf(light, 0.5f, 1.5f) * (1.0f - 0.5f * w.shade));
     g.color = vec3_lerp(g.color, vec3_scale(vec3(0.47f, 0.41f, 0.33f), 0.6f + 0.5f * w.chip),
                         0.8f * w.chips);
@@ -326,6 +342,11 @@ static Ground silt(const Material *m, const SurfacePoint *point, Vec3 base, floa
     g.color = vec3_lerp(g.color, vec3(0.12f, 0.115f, 0.065f), 0.4f * scrub);
     float relief = 0.04f * sand.value - 0.1f * thread - 0.025f * crack + high + 0.05f * scrub;
     *height = 2.0f * m->pattern_depth * s * relief;
+    if (m->cracks > 0.0f) {
+        DriedClay clay = pattern_dried_clay(point, m->cracks * (1.0f - share), 1.0f);
+        *height += clay.height;
+        g.color = vec3_scale(g.color, (1.0f + 0.25f * clay.tone) * (1.0f - 0.5f * clay.shade));
+    }
     return g;
 }
 

@@ -71,6 +71,7 @@ uint64_t relief_key(const Material *m)
                             m->scars,
                             m->ribs,
                             m->hollows,
+                            m->cracks,
                             m->twist,
                             m->bark_height,
                             m->displacement_depth,
