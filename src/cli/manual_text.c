@@ -170,7 +170,8 @@ static const ManualText TEXTS[] = {
      .examples = {{"warmer, with the grain of a film",
                    "ramify develop pine.exr --set film.white_balance=5600 --set film.grain=0.012 "
                    "-o pine-film.png"},
-                  {"half a stop brighter", "ramify develop pine.exr --exposure 0.5 -o light.png"}}},
+                  {"with an exposure of half a stop",
+                   "ramify develop pine.exr --exposure 0.5 -o light.png"}}},
     {.command = "batch",
      .paragraphs =
          {"Renders the tiles of a picture (--tiles), also by ranges of their samples "
