@@ -10,13 +10,13 @@
      BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT))
 #define SCENES (GROWS | BIT(COMMAND_INFO) | BIT(COMMAND_REPLAY))
 #define COMPARES (BIT(COMMAND_COMPARE) | BIT(COMMAND_GOLDEN))
-#define EVERY                                                                         \
-    (SCENES | COMPARES | JOINS | BATCH | BIT(COMMAND_SPECIES) | BIT(COMMAND_SCHEMA) | \
+#define EVERY                                                                               \
+    (SCENES | COMPARES | READS_FILMS | BATCH | BIT(COMMAND_SPECIES) | BIT(COMMAND_SCHEMA) | \
      BIT(COMMAND_COMPLETION) | BIT(COMMAND_HELP))
 #define RENDERS (BIT(COMMAND_RENDER) | BIT(COMMAND_TURNTABLE))
 #define BATCH BIT(COMMAND_BATCH)
 #define DEVELOPS BIT(COMMAND_DEVELOP)
-#define JOINS (BIT(COMMAND_MERGE) | DEVELOPS)
+#define READS_FILMS (BIT(COMMAND_MERGE) | DEVELOPS)
 #define PICTURES (RENDERS | BATCH)
 #define ESTIMATED (PICTURES | BIT(COMMAND_INFO))
 #define TURNS BIT(COMMAND_TURNTABLE)
@@ -28,7 +28,8 @@ const Option option_table[] = {
      .value = "FILE",
      .offset = AT(output),
      .type = OPTION_TEXT,
-     .commands = PICTURES | BIT(COMMAND_GROW) | BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT) | JOINS,
+     .commands =
+         PICTURES | BIT(COMMAND_GROW) | BIT(COMMAND_FIT) | BIT(COMMAND_EXPORT) | READS_FILMS,
      .letter = 'o',
      .doc =
          "what to write; render: .png or .jpg with the .exr beside it; merge: .png or .jpg with "
@@ -560,7 +561,7 @@ const Option option_table[] = {
      .low = 1,
      .high = 1024,
      .type = OPTION_INT,
-     .commands = SCENES | BIT(COMMAND_GOLDEN) | JOINS | BATCH,
+     .commands = SCENES | BIT(COMMAND_GOLDEN) | READS_FILMS | BATCH,
      .doc = "use N threads; the result does not depend on it; batch: those of one task"},
     {.name = "json",
      .offset = AT(json),
@@ -570,7 +571,7 @@ const Option option_table[] = {
     {.name = "quiet",
      .offset = AT(quiet),
      .type = OPTION_YES,
-     .commands = SCENES | BIT(COMMAND_GOLDEN) | JOINS | BATCH,
+     .commands = SCENES | BIT(COMMAND_GOLDEN) | READS_FILMS | BATCH,
      .letter = 'q',
      .doc = "print only errors"},
     {.name = "help",
