@@ -363,10 +363,14 @@ const Option option_table[] = {
      .value = "PATH=VALUE",
      .offset = AT(overrides),
      .type = OPTION_SET,
-     .commands = SCENES | BATCH | DEVELOPS,
-     .doc =
-         "change the scene: --set camera.fov=35 --set objects.oak.tree.height=9; develop: keys of "
-         "film"},
+     .commands = SCENES | BATCH,
+     .doc = "change the scene: --set camera.fov=35 --set objects.oak.tree.height=9"},
+    {.name = "set",
+     .value = "PATH=VALUE",
+     .offset = AT(overrides),
+     .type = OPTION_SET,
+     .commands = DEVELOPS,
+     .doc = "change how the film is shown: --set film.contrast=1.2 --set film.grain=0.01"},
     {.name = "vary",
      .value = "PATH=LOW:HIGH",
      .offset = AT(varied),
