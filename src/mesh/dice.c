@@ -1,6 +1,8 @@
 #include "mesh/dice.h"
 
 #include "base/memory.h"
+#include "mesh/dice_budget.h"
+#include "mesh/dice_split.h"
 #include "mesh/dice_surface.h"
 
 #include <math.h>
@@ -8,6 +10,8 @@
 #include <string.h>
 
 enum { MOST_PASSES = 24 };
+
+#define COARSER 1.06f // see coarsen
 
 #define NO_VERTEX UINT32_MAX
 
@@ -87,14 +91,10 @@ static void displace(Dicer *dicer, int64_t first)
 
 // ---- edges
 
-// Steep walls of the relief are halved further, but not without end.
 static bool is_long(const Dicer *dicer, uint32_t a, uint32_t b)
 {
-    const DicePoint *from = &dicer->point[a], *to = &dicer->point[b];
-    float longest = dicer->rule->longest(dicer->rule->user, from, to) * dicer->coarsening;
-    float smooth = vec3_distance(from->position, to->position);
-    float displaced = vec3_distance(dicer->displaced[a], dicer->displaced[b]);
-    return smooth > longest || (displaced > longest && smooth > longest * (1.0f / 3.0f));
+    return dice_is_long(dicer->rule, dicer->coarsening, &dicer->point[a], dicer->displaced[a],
+                        &dicer->point[b], dicer->displaced[b]);
 }
 
 // Marks the edges to halve. Returns the number of triangles after that.
@@ -164,43 +164,24 @@ static bool halve_edges(Dicer *dicer, int64_t marks)
 
 // ---- triangles
 
-static float across(const Dicer *dicer, uint32_t a, uint32_t b)
-{
-    return vec3_distance(dicer->point[a].position, dicer->point[b].position);
-}
-
-// A triangle with the middles of edges 0 .. halved - 1.
-static bool emit(Dicer *dicer, const uint32_t v[3], const uint32_t m[3], int halved)
-{
-    Triangles *out = &dicer->next;
-    Error *e = dicer->e;
-    if (halved == 1) {
-        return add_triangle(out, v[0], m[0], v[2], e) && add_triangle(out, m[0], v[1], v[2], e);
-    }
-    if (halved == 3) {
-        return add_triangle(out, v[0], m[0], m[2], e) && add_triangle(out, m[0], m[1], m[2], e) &&
-               add_triangle(out, m[0], v[1], m[1], e) && add_triangle(out, m[2], m[1], v[2], e);
-    }
-    if (!add_triangle(out, m[0], v[1], m[1], e)) {
-        return false;
-    }
-    return across(dicer, v[0], m[1]) < across(dicer, m[0], v[2])
-               ? add_triangle(out, v[0], m[0], m[1], e) && add_triangle(out, v[0], m[1], v[2], e)
-               : add_triangle(out, v[0], m[0], v[2], e) && add_triangle(out, m[0], m[1], v[2], e);
-}
-
 static bool divide(Dicer *dicer, const uint32_t corner[3], unsigned mark)
 {
-    // Turned so that the halved edges come first.
-    static const unsigned turn[8] = {0, 0, 1, 0, 2, 2, 1, 0};
-    static const int halved[8] = {0, 1, 1, 2, 1, 2, 2, 3};
-    unsigned first = turn[mark];
-    const uint32_t v[3] = {corner[first], corner[(first + 1) % 3], corner[(first + 2) % 3]};
-    uint32_t m[3] = {0};
-    for (int k = 0; k < 3 && k < halved[mark]; k++) {
-        m[k] = find_edge(dicer, v[k], v[(k + 1) % 3])->middle;
+    uint32_t vertex[6] = {corner[0], corner[1], corner[2]};
+    Vec3 position[6];
+    for (unsigned k = 0; k < 3; k++) {
+        position[k] = dicer->point[vertex[k]].position;
+        if (mark & 1u << k) {
+            vertex[3 + k] = find_edge(dicer, corner[k], corner[(k + 1) % 3])->middle;
+            position[3 + k] = dicer->point[vertex[3 + k]].position;
+        }
     }
-    return emit(dicer, v, m, halved[mark]);
+    DiceSplit split = dice_split(mark, position);
+    bool good = true;
+    for (int i = 0; good && i < split.count; i++) {
+        const uint8_t *c = split.corner[i];
+        good = add_triangle(&dicer->next, vertex[c[0]], vertex[c[1]], vertex[c[2]], dicer->e);
+    }
+    return good;
 }
 
 static bool divide_all(Dicer *dicer)
@@ -219,23 +200,27 @@ static bool divide_all(Dicer *dicer)
     return good;
 }
 
-// Halves what is too long, once. *more: some edge was.
-static bool pass(Dicer *dicer, bool *more)
+typedef enum Step { STEP_FAILED, STEP_HALVED, STEP_DONE, STEP_OVERFULL } Step;
+
+// Halves what is too long, once; not if there would be too many faces.
+static Step halve_once(Dicer *dicer)
 {
     if (run_is_cancelled(dicer->run)) {
-        return run_cancel_error(dicer->e);
+        run_cancel_error(dicer->e);
+        return STEP_FAILED;
     }
-    int64_t most = dicer->rule->most_faces, count = dicer->active.count;
+    int64_t count = dicer->active.count;
     if (!memory_reserve(&dicer->mark, &dicer->mark_capacity, count + 1, 1, dicer->e)) {
-        return false;
+        return STEP_FAILED;
     }
     int64_t after = mark_edges(dicer);
-    while (after > count && dicer->done.count + after > most) {
-        dicer->coarsening *= 1.25f;
-        after = mark_edges(dicer);
+    if (after == count) {
+        return STEP_DONE;
     }
-    *more = after > count;
-    return !*more || (halve_edges(dicer, after - count) && divide_all(dicer));
+    if (dicer->done.count + after > dicer->rule->most_faces) {
+        return STEP_OVERFULL;
+    }
+    return halve_edges(dicer, after - count) && divide_all(dicer) ? STEP_HALVED : STEP_FAILED;
 }
 
 // ---- the result
@@ -289,6 +274,7 @@ static bool take_result(Dicer *dicer, const Mesh *mesh, DicedMesh *diced)
     return set_normals(diced, dicer->e);
 }
 
+// Sets the triangles and points to those of the mesh.
 static bool start(Dicer *dicer, const Mesh *mesh)
 {
     int64_t triangles = mesh->face_count * (mesh->face_size - 2);
@@ -297,12 +283,51 @@ static bool start(Dicer *dicer, const Mesh *mesh)
         !reserve_points(dicer, mesh->vertex_count + 1)) {
         return false;
     }
+    dicer->done.count = 0;
     dicer->active.count = triangles;
     dicer->point_count = mesh->vertex_count;
     dice_split_faces(mesh, dicer->active.index);
     dice_fill_points(mesh, dicer->active.index, triangles, dicer->point);
     displace(dicer, 0);
     return true;
+}
+
+// Edges become longer everywhere, or those that need most halvings would bear it all: what is near
+// the camera. The estimate may be too low, as it does not know the finest relief.
+static void coarsen(Dicer *dicer)
+{
+    const DiceTriangles whole = {dicer->active.index, dicer->active.count, dicer->point,
+                                 dicer->displaced};
+    dicer->coarsening = dicer->coarsening > 1.0f
+                            ? dicer->coarsening * COARSER
+                            : COARSER * dice_coarsening(&whole, dicer->rule, dicer->run);
+}
+
+// *halved: some edge was.
+static Step halve(Dicer *dicer, bool *halved)
+{
+    Step step = STEP_HALVED;
+    *halved = false;
+    for (int i = 0; step == STEP_HALVED && i < MOST_PASSES; i++) {
+        step = halve_once(dicer);
+        *halved = *halved || step == STEP_HALVED;
+    }
+    return step;
+}
+
+static bool halve_within_limit(Dicer *dicer, const Mesh *mesh, bool *halved)
+{
+    Step step = STEP_OVERFULL;
+    for (int attempt = 0; step == STEP_OVERFULL; attempt++) {
+        if (!start(dicer, mesh)) {
+            return false;
+        }
+        if (attempt > 0) {
+            coarsen(dicer);
+        }
+        step = halve(dicer, halved);
+    }
+    return step != STEP_FAILED;
 }
 
 static bool is_displaced(const Dicer *dicer)
@@ -318,11 +343,7 @@ bool mesh_dice(const Mesh *mesh, const DiceRule *rule, const Run *run, DicedMesh
 {
     *diced = (DicedMesh){.coarsening = 1.0f};
     Dicer dicer = {.rule = rule, .run = run, .e = e, .coarsening = 1.0f};
-    bool good = start(&dicer, mesh), more = good, halved = false;
-    for (int i = 0; good && more && i < MOST_PASSES; i++) {
-        good = pass(&dicer, &more);
-        halved = halved || more;
-    }
+    bool halved = false, good = halve_within_limit(&dicer, mesh, &halved);
     if (good && (halved || is_displaced(&dicer))) {
         good = take_result(&dicer, mesh, diced);
     }

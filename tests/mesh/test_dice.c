@@ -12,6 +12,7 @@ typedef struct Wanted {
     float edge;   // m
     float height; // m, of the waves
     float near;   // edges are to be diced where z is above it
+    float growth; // per m: edges are longer by this times the distance from the end z = -1
 } Wanted;
 
 static float waves(Vec3 p, float height)
@@ -22,7 +23,8 @@ static float waves(Vec3 p, float height)
 static float wanted_edge(const void *user, const DicePoint *a, const DicePoint *b)
 {
     const Wanted *wanted = user;
-    return 0.5f * (a->position.z + b->position.z) > wanted->near ? wanted->edge : INFINITY;
+    float z = 0.5f * (a->position.z + b->position.z);
+    return z > wanted->near ? wanted->edge * (1.0f + wanted->growth * (z + 1.0f)) : INFINITY;
 }
 
 static float wanted_height(const void *user, const DicePoint *p, float *share)
@@ -180,12 +182,46 @@ static void the_limit_on_faces_is_kept(void **state)
     mesh_free(tube);
 }
 
+// Mean of how long edges are against what is wanted, over faces between two heights.
+static double mean_length(const DicedMesh *d, const Wanted *wanted, float low, float high)
+{
+    double sum = 0.0;
+    int64_t edges = 0;
+    for (int64_t i = 0; i < 3 * d->mesh->face_count; i++) {
+        uint32_t a = d->mesh->index[i], b = d->mesh->index[i % 3 == 2 ? i - 2 : i + 1];
+        const DicePoint from = {.position = d->mesh->position[a]};
+        const DicePoint to = {.position = d->mesh->position[b]};
+        float z = 0.5f * (from.position.z + to.position.z);
+        if (z > low && z < high) {
+            float length = vec3_distance(from.position, to.position);
+            sum += (double)(length / wanted_edge(wanted, &from, &to));
+            edges++;
+        }
+    }
+    return sum / (double)edges;
+}
+
+// What needs most halvings must not bear the limit alone.
+static void the_limit_on_faces_is_borne_by_all(void **state)
+{
+    (void)state;
+    Mesh *tube = sheet(16, true);
+    Wanted wanted = {.edge = 0.002f, .height = 0.03f, .near = -2.0f, .growth = 20.0f};
+    DicedMesh d = dice(tube, &wanted, 40000, 2);
+    double fine = mean_length(&d, &wanted, -1.0f, -0.8f), coarse = mean_length(&d, &wanted, 0, 1);
+    assert_true(d.mesh->face_count <= 40000 && d.mesh->face_count > 20000);
+    assert_true(d.coarsening > 1.5f && fine < d.coarsening && coarse < d.coarsening);
+    assert_true(fine / coarse < 1.3 && coarse / fine < 1.3);
+    diced_mesh_clear(&d);
+    mesh_free(tube);
+}
+
 static void threads_do_not_change_a_bit(void **state)
 {
     (void)state;
     Mesh *tube = sheet(24, true);
     Wanted wanted = {.edge = 0.013f, .height = 0.04f, .near = -0.3f};
-    DicedMesh a = dice(tube, &wanted, 1000000, 1), b = dice(tube, &wanted, 1000000, 3);
+    DicedMesh a = dice(tube, &wanted, 100000, 1), b = dice(tube, &wanted, 100000, 3);
     assert_int_equal(a.mesh->vertex_count, b.mesh->vertex_count);
     assert_int_equal(a.mesh->face_count, b.mesh->face_count);
     size_t points = (size_t)a.mesh->vertex_count * sizeof(Vec3);
@@ -205,6 +241,7 @@ int main(void)
         cmocka_unit_test(rates_may_differ_without_cracks),
         cmocka_unit_test(nothing_is_made_where_nothing_is_asked_for),
         cmocka_unit_test(the_limit_on_faces_is_kept),
+        cmocka_unit_test(the_limit_on_faces_is_borne_by_all),
         cmocka_unit_test(threads_do_not_change_a_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
