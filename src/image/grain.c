@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#define SHARED 0.75f // of the variance: common to the three layers of emulsion
+#define SHARED 0.9f  // of the variance: common to the three layers of emulsion
 #define SPREAD 0.15f // of a grain's weight on each of two neighbours along an axis
 
 // Independent normal values for each pixel and channel, of which channels share a part.
@@ -51,7 +51,7 @@ static void add_grain(const float *from, float *to, int channels, float strength
 {
     const float add[3] = {grain.x, grain.y, grain.z};
     float luma = clampf(luminance_rgb(from), 0.0f, 1.0f);
-    float deviation = 2.0f * strength * sqrtf(luma * (1.0f - luma));
+    float deviation = strength * sqrtf(8.0f * luma) * (1.0f - luma);
     for (int c = 0; c < channels; c++) {
         to[c] = c < 3 ? clampf(from[c] + deviation * add[c], 0.0f, 1.0f) : from[c];
     }

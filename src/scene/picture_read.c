@@ -128,11 +128,15 @@ static bool check_picture(const char *file, const Scene *scene, bool any_crop, P
 
 enum { MOST_CHANNELS = 5 * FILM_PLANES, NAME_SIZE = 24 };
 
-// Full names of the channels of all planes: "R", "albedo.R", "depth.Z". Returns their number.
-static int channel_names(const FilmPlane plane[FILM_PLANES], char name[MOST_CHANNELS][NAME_SIZE])
+// Bytes of a film that are read at once: what its planes take beside itself meanwhile, and less
+// than an image may have. A film of 3840 x 2160 pixels takes 2.3 GB.
+#define MOST_BYTES (INT64_C(1) << 29)
+
+// Full names of the channels of planes: "R", "albedo.R", "depth.Z". Returns their number.
+static int channel_names(const FilmPlane *plane, int planes, char name[MOST_CHANNELS][NAME_SIZE])
 {
     int count = 0;
-    for (int i = 0; i < FILM_PLANES; i++) {
+    for (int i = 0; i < planes; i++) {
         for (const char *c = plane[i].channels; *c; c++) {
             snprintf(name[count++], NAME_SIZE, "%s%s%c", plane[i].layer,
                      plane[i].layer[0] ? "." : "", *c);
@@ -141,12 +145,12 @@ static int channel_names(const FilmPlane plane[FILM_PLANES], char name[MOST_CHAN
     return count;
 }
 
-static Image *read_planes(const char *file, const FilmPlane plane[FILM_PLANES], int window[6],
+static Image *read_planes(const char *file, const FilmPlane *plane, int planes, int window[6],
                           const Run *run, Error *e)
 {
     char text[MOST_CHANNELS][NAME_SIZE];
     const char *name[MOST_CHANNELS];
-    int count = channel_names(plane, text);
+    int count = channel_names(plane, planes, text);
     for (int i = 0; i < count; i++) {
         name[i] = text[i];
     }
@@ -154,11 +158,11 @@ static Image *read_planes(const char *file, const FilmPlane plane[FILM_PLANES], 
 }
 
 // Copies the image, whose upper left pixel lies at x, y, to planes of this width.
-static void copy_planes(const Image *image, int x, int y, int width,
-                        const FilmPlane plane[FILM_PLANES])
+static void copy_planes(const Image *image, int x, int y, int width, const FilmPlane *plane,
+                        int planes)
 {
     int64_t first = 0;
-    for (int i = 0; i < FILM_PLANES; i++) {
+    for (int i = 0; i < planes; i++) {
         int64_t channels = (int64_t)strlen(plane[i].channels);
         for (int64_t p = 0; p < (int64_t)image->width * image->height; p++) {
             int64_t to = (y + p / image->width) * width + x + p % image->width;
@@ -220,6 +224,37 @@ static bool check_film(const char *file, const Film *film, const PicturePart *pa
     return true;
 }
 
+// How many of the planes are read at once; at least one.
+static int planes_at_once(const Film *film, const FilmPlane *plane, int planes)
+{
+    int64_t channel = (int64_t)film->width * film->height * (int64_t)sizeof(float);
+    int64_t bytes = channel * (int64_t)strlen(plane[0].channels);
+    int count = 1;
+    while (count < planes &&
+           (bytes += channel * (int64_t)strlen(plane[count].channels)) <= MOST_BYTES) {
+        count++;
+    }
+    return count;
+}
+
+// Fills some planes of the film, and *box with the pixels that the file has.
+static bool read_some(const char *file, Film *film, const FilmPlane *plane, int planes,
+                      PixelBox *box, const Run *run, Error *e)
+{
+    int window[6];
+    Image *image = read_planes(file, plane, planes, window, run, e);
+    bool done = image && check_window(file, film, image, window, e);
+    if (done) {
+        *box = (PixelBox){.x0 = window[0],
+                          .y0 = window[1],
+                          .x1 = window[0] + image->width,
+                          .y1 = window[1] + image->height};
+        copy_planes(image, window[0], window[1], film->width, plane, planes);
+    }
+    image_free(image);
+    return done;
+}
+
 static Film *read_film(const char *file, const Scene *scene, bool any_crop, PicturePart *part,
                        const Run *run, Error *e)
 {
@@ -232,19 +267,15 @@ static Film *read_film(const char *file, const Scene *scene, bool any_crop, Pict
         return NULL;
     }
     film_planes(film, plane);
-    int window[6];
-    Image *image = read_planes(file, plane, window, run, e);
-    bool done = image && check_window(file, film, image, window, e);
+    bool done = true;
+    for (int first = 0, count; done && first < FILM_PLANES; first += count) {
+        count = planes_at_once(film, plane + first, FILM_PLANES - first);
+        done = read_some(file, film, plane + first, count, &part->box, run, e);
+    }
     if (done) {
-        part->box = (PixelBox){.x0 = window[0],
-                               .y0 = window[1],
-                               .x1 = window[0] + image->width,
-                               .y1 = window[1] + image->height};
-        copy_planes(image, window[0], window[1], film->width, plane);
         forget_first_look(film, &part->box);
         done = check_film(file, film, part, e);
     }
-    image_free(image);
     if (!done) {
         film_free(film);
         return NULL;

@@ -30,6 +30,11 @@ yes film_is_as_it_was cmp a.exr before.exr
 check again 0 "$RAMIFY" render other.png -o c.png -q
 yes again_as_rendered_so cmp b.png c.png
 
+# a film of more than 512 MB is read in several goes
+check large 0 "$RAMIFY" render scene.yaml --size 2000x1000 --samples 1 --no-denoise -o large.png -q
+check large_developed 0 "$RAMIFY" develop large.exr -o same_large.png -q
+yes large_bits cmp large.png same_large.png
+
 check not_traced 2 "$RAMIFY" develop a.exr --set render.samples=9 -o x.png
 says not_traced_says err "--set render.samples=9 needs new samples"
 for key in width=96 height=9 filter=box filter_radius=2 'crop=[0, 0, 0.5, 1]' crop.0=0.5; do
