@@ -22,6 +22,9 @@ enum {
 };
 // s: longer ticks do not count, since the machine slept or the process was stopped
 #define LONGEST_TICK 1.0
+// Wall-clock time against the limit of processor time: the child may share the processors with
+// many.
+#define PATIENCE 10.0
 
 typedef struct Child {
     pid_t pid;
@@ -87,9 +90,9 @@ static Outcome wait_for(Child *child, double seconds, const Run *run)
         double now = run_seconds();
         waited += now - last < LONGEST_TICK ? now - last : LONGEST_TICK;
         last = now;
-        outcome = run_is_cancelled(run) ? OUTCOME_CANCELLED
-                  : waited > seconds    ? OUTCOME_LATE
-                                        : OUTCOME_ENDED;
+        outcome = run_is_cancelled(run)         ? OUTCOME_CANCELLED
+                  : waited > PATIENCE * seconds ? OUTCOME_LATE
+                                                : OUTCOME_ENDED;
     }
     return outcome;
 }

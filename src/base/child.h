@@ -35,7 +35,7 @@ typedef struct ChildJob {
     const char *file;   // the file it reads, for errors; NULL = the caller names it
     const char *worker; // "writer"; NULL = "reader", for errors
     const char *wanted; // "a whole OBJ file": what would be right, for errors
-    double seconds;     // limit of wall-clock and of processor time
+    double seconds;     // limit of processor time; ten times that of wall-clock time
     int64_t memory;     // limit in bytes, beyond what this process has mapped already; the same
                         // again for output; INT64_MAX = the user's own limits. Not enforced
                         // under AddressSanitizer.

@@ -209,6 +209,14 @@ static bool sleep_long(const void *data, ChildOutput *output, Error *e)
     return true;
 }
 
+// As of one whose machine is busy with other work.
+static bool wait_a_little(const void *data, ChildOutput *output, Error *e)
+{
+    (void)data, (void)output, (void)e;
+    usleep(400000);
+    return true;
+}
+
 static bool allocate(const void *data, ChildOutput *output, Error *e)
 {
     (void)data, (void)output;
@@ -352,6 +360,7 @@ static void survives_them(void **state)
     fails_with(write_for_ever, 60, memory);
     fails_with(loop, 0.2, "the reader took longer than 0.2 s; a better one is needed");
     fails_with(sleep_long, 0.2, "the reader took longer than 0.2 s; a better one is needed");
+    assert_true(runs(wait_a_little, NULL, 0.2, &quiet, &e));
     if (!SANITIZED) { // whose memory is reserved beforehand
         fails_with(allocate, 60, memory);
     }

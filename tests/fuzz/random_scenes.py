@@ -19,7 +19,7 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-SECONDS = 120  # of processor time that a scene may take, with its threads
+SECONDS = 400  # of processor time that a scene may take, with its threads
 PATIENCE = 3600  # seconds to wait for it on a busy machine
 # Keys that set how much work an object is: the largest value drawn.
 MOST = {
