@@ -3,6 +3,7 @@
 #include "testing.h"
 
 #include "objects/venation/blade_wave.h"
+#include "objects/venation/margin_hairs.h"
 #include "objects/venation/vein_curves.h"
 #include "objects/venation/venation.h"
 
@@ -427,6 +428,73 @@ static void waves_rise_from_the_midrib_to_the_margin(void **state)
     worn_leaf_clear(&leaf);
 }
 
+// Hairs stand on the margin of the flat leaf, where it is whole, and lead out of it to the tip.
+static void hairs_fringe_the_margin(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.outline.teeth = 12, params.outline.uneven = 1.0f;
+    params.wear = 1.0f, params.hairs = 0.001f;
+    WornLeaf leaf;
+    worn_leaf_init(&leaf, params);
+    const LeafOutline *outline = &leaf.params.outline;
+    Transform place = transform_identity();
+    Error e = {0};
+    CurveSet *hairs = margin_hairs(&leaf.params, &leaf.relief, &place, &e);
+    assert_non_null(hairs);
+    int64_t left = 0, outside = 0, forward = 0, n = hairs->curve_count;
+    assert_int_equal(hairs->first[n], hairs->point_count);
+    for (int64_t i = 0; i < n; i++) {
+        int64_t foot = hairs->first[i], end = hairs->first[i + 1] - 1;
+        Vec3 a = hairs->position[foot], b = hairs->position[end];
+        float edge = leaf_margin(outline, a.x < 0.0f ? -1.0f : 1.0f, a.y);
+        assert_true(fabsf(fabsf(a.x) - edge) < 1e-6f);
+        assert_true(blade_wear_depth(&leaf.relief.wear, a) == 0.0f);
+        float reach = vec3_distance(a, b);
+        assert_true(reach > 0.25f * params.hairs && reach < 2.0f * params.hairs);
+        assert_true(hairs->radius[foot] > hairs->radius[end] && hairs->radius[end] > 0.0f);
+        left += a.x < 0.0f;
+        outside += !leaf_contains(outline, 1.0f, vec3(b.x, b.y, 0));
+        forward += b.y > a.y;
+    }
+    // 2 x 0.1 m / 0.4 mm, but for what is eaten
+    assert_true(n > 300 && n < 500 && left > n * 2 / 5 && left < n * 3 / 5);
+    assert_true(outside > n * 9 / 10 && forward > n * 3 / 4);
+    curves_free(hairs);
+    worn_leaf_clear(&leaf);
+}
+
+// They stay on the margin of a blade that is wavy, folded and bent; without a blade there are none.
+static void hairs_bend_with_the_blade(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.hairs = 0.001f, params.wave = 0.003f, params.fold = 30.0f, params.curl = 60.0f;
+    OutTree *tree = grow(&params);
+    Geometry geometry = {0};
+    Error e = {0};
+    Placing placing = placing_in(&geometry, NULL);
+    Grown grown = grown_of(tree);
+    assert_true(venation_geometry(&params, &grown, &placing, &e));
+    assert_int_equal(geometry.count, 3);
+    const Mesh *blade = geometry.part[1].mesh;
+    const CurveSet *hairs = geometry.part[2].curves;
+    for (int64_t i = 0; i < hairs->curve_count; i++) {
+        float nearest = 1.0f;
+        for (int64_t v = 0; v < blade->vertex_count; v++) {
+            Vec3 foot = hairs->position[hairs->first[i]];
+            nearest = fminf(nearest, vec3_distance(foot, blade->position[v]));
+        }
+        assert_true(nearest < 0.0006f); // rows are 0.625 mm apart
+    }
+    geometry_clear(&geometry);
+    params.blade = false;
+    assert_true(venation_geometry(&params, &grown, &placing, &e));
+    assert_int_equal(geometry.count, 1);
+    geometry_clear(&geometry);
+    out_tree_free(tree);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -439,6 +507,8 @@ int main(void)
         cmocka_unit_test(a_worn_blade_is_what_teeth_and_holes_leave),
         cmocka_unit_test(rims_of_holes_are_dead_and_the_rest_is_green),
         cmocka_unit_test(waves_rise_from_the_midrib_to_the_margin),
+        cmocka_unit_test(hairs_fringe_the_margin),
+        cmocka_unit_test(hairs_bend_with_the_blade),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

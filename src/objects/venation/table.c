@@ -63,6 +63,9 @@ static const Key VENATION_KEYS[] = {
     {KEY_OF(VenationParams, wave, "wave", KEY_FLOAT), .low = -1000, .high = 1000, .unit = "m",
      .doc = "Height of the blade's waves, which grow from the midrib to the margin: furrows along "
             "the secondary veins, and longer waves of the margin."},
+    {KEY_OF(VenationParams, hairs, "hairs", KEY_FLOAT), .high = 1, .unit = "m",
+     .doc = "Length of the fine hairs along the margin, as on a young beech leaf, in the material "
+            "of the veins: 0.001 is natural; 0 = none. Needs a blade."},
     {KEY_OF(VenationParams, wear, "wear", KEY_FLOAT), .high = 1,
      .doc = "Traces of insects, with dead rims: up to 16 holes and 3 bites at the margin. Thick "
             "veins are left whole. Needs a blade."},

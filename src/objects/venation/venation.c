@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "grow/venation/veinlets.h"
 #include "objects/venation/blade.h"
+#include "objects/venation/margin_hairs.h"
 #include "objects/venation/vein_curves.h"
 #include "outtree/join.h"
 #include "outtree/radii.h"
@@ -37,7 +38,7 @@ VenationParams venation_params_resolve(const VenationParams *given)
     params.vein = params.vein > 0.0f ? params.vein : 0.06f * mesh;
     params.embedded = fminf(params.embedded, 0.5f * params.midrib); // some veins stand out
     if (!params.blade) {
-        params.wear = params.spots = 0.0f;
+        params.wear = params.spots = params.hairs = 0.0f;
     }
     return params;
 }
@@ -150,6 +151,10 @@ bool venation_geometry(const void *given, const Grown *grown, const Placing *pla
     if (done && params.blade) {
         Part blade = {.mesh = venation_blade(&params, &relief, &place, e)};
         done = placing_add(placing, blade, VENATION_BLADE, e);
+    }
+    if (done && params.hairs > 0.0f) {
+        Part hairs = {.curves = margin_hairs(&params, &relief, &place, e)};
+        done = placing_add(placing, hairs, VENATION_VEINS, e);
     }
     relief_clear(&relief);
     return done;

@@ -23,6 +23,7 @@ typedef struct VenationParams {
     float veinlets;      // share of areoles with a free-ending veinlet; above 0, stubs are cleared
     float relief;        // m: depth of the furrow of the midrib; lesser veins have lesser ones
     float wave;          // m: height of the waves on the margin
+    float hairs;         // m: length of the hairs at the margin; 0 = none; only of a blade
     float wear;          // 0..1: holes and bites; only of a blade
     float spots;         // 0..1: dead spots and yellow patches; only of a blade
     float curl;          // degrees that the blade bends back along its length
