@@ -133,5 +133,6 @@ float wood_relief(Vec3 p, Vec3 normal, float finest, float check_depth)
     float swell =
         0.014f * noise_space(vec3(p.x / 0.09f, p.y / 0.32f, p.z / 0.09f), SEED_STEM) +
         0.005f * noise_space(vec3(p.x / 0.035f, p.y / 0.15f, p.z / 0.035f), SEED_STEM + 1);
-    return swell + wood_grain_height(&place, wood_end(normal), finest) - check_depth * place.depth * place.check;
+    return swell + wood_grain_height(&place, wood_end(normal), finest) -
+           check_depth * place.depth * place.check;
 }

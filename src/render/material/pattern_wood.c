@@ -24,7 +24,8 @@ static float height_at(const Material *m, const SurfacePoint *point, Vec3 p)
     float scale = scale_of(m), finest = fmaxf(0.0006f, 2.0f * point->footprint / scale);
     WoodPlace place = wood_place(vec3_scale(p, 1.0f / scale));
     const float whole = 0.003f; // m, from grooves to ridges
-    return m->pattern_depth / whole * wood_grain_height(&place, wood_end(surface_smooth_normal(point)), finest);
+    return m->pattern_depth / whole *
+           wood_grain_height(&place, wood_end(surface_smooth_normal(point)), finest);
 }
 
 // Share of color2 by the grain alone.
@@ -43,8 +44,8 @@ static float darkness(const WoodPlace *place, Vec3 p, float footprint)
 static float rings(const WoodPlace *place, Vec3 p, float footprint)
 {
     const float year = 0.0026f; // m
-    float wave = noise_fractal(vec3_scale(p, 60.0f), 2, SEED_RING);
-    float t = place->radius / year + 1.2f * wave, late = t - floorf(t);
+    float wave = noise_fractal(vec3_scale(p, 45.0f), 3, SEED_RING);
+    float t = place->radius / year + 2.2f * wave, late = t - floorf(t);
     return late * late * pattern_detail(year, footprint);
 }
 
@@ -55,7 +56,7 @@ void pattern_wood(const Material *m, const SurfacePoint *point, PatternShade *sh
     WoodPlace place = wood_place(p);
     float end = wood_end(surface_smooth_normal(point));
     float dark = darkness(&place, p, footprint);
-    dark = lerpf(dark, 0.35f + 0.5f * rings(&place, p, footprint), end);
+    dark = lerpf(dark, 0.45f + 0.3f * rings(&place, p, footprint), end);
     float heart = 0.5f + 0.5f * cosf(30.0f * place.knot);
     dark = lerpf(dark, 0.75f + 0.3f * heart, smoothstepf(0.0f, 0.35f, place.knot));
     Vec3 color = vec3_lerp(shade->color, m->color2, clampf(dark, 0.0f, 1.0f));
