@@ -58,3 +58,70 @@ Mesh *hoar_tuft(float spread, uint64_t key, Error *e)
     }
     return mesh;
 }
+
+// ---- feathers ----
+
+enum { FRONDS = 4, PAIRS = 8, BLADES = FRONDS * (1 + 2 * PAIRS) };
+
+// A blade in the plane of along and `beside` (unit).
+static void add_blade(Mesh *mesh, int64_t number, const Spike *blade, Vec3 beside, Vec3 upright)
+{
+    const float thin = 0.35f; // thickness over width
+    uint32_t first = (uint32_t)(4 * number);
+    Vec3 *corner = mesh->position + first;
+    corner[0] = vec3_madd(blade->foot, blade->width, beside);
+    corner[1] = vec3_madd(blade->foot, -blade->width, beside);
+    corner[2] = vec3_madd(blade->foot, thin * blade->width, upright);
+    corner[3] = blade->tip;
+    static const uint32_t FACES[12] = {0, 1, 3, 1, 2, 3, 2, 0, 3, 2, 1, 0};
+    Vec3 face = vec3_cross(vec3_sub(corner[1], corner[0]), vec3_sub(corner[3], corner[0]));
+    bool inward = vec3_dot(face, upright) > 0.0f;
+    for (int i = 0; i < 12; i++) {
+        mesh->index[12 * number + i] = first + FACES[inward ? 11 - i : i];
+    }
+}
+
+// u: unit, across d in the frond's plane.
+static void add_frond(Mesh *mesh, int64_t *count, Vec3 d, Vec3 u, float length, uint64_t key)
+{
+    Vec3 upright = vec3_cross(d, u);
+    Spike axis = {.tip = vec3_scale(d, length), .width = 0.028f * length};
+    add_blade(mesh, (*count)++, &axis, u, upright);
+    float reach = random_range(random_key(key, 0), 0.3f, 0.5f);
+    for (uint64_t k = 0; k < 2 * PAIRS; k++) {
+        uint64_t own = random_key(key, 1 + k);
+        float side = k % 2 == 0 ? 1.0f : -1.0f;
+        float at = ((float)(k / 2) + random_range(own, 0.6f, 1.1f)) / (PAIRS + 1);
+        float shape = at < 0.35f ? 0.45f + 1.57f * at : 1.55f * (1.0f - at);
+        float far = reach * length * shape * random_range(random_key(own, 1), 0.6f, 1.1f);
+        Vec3 out = vec3_add(vec3_scale(d, 0.5f), vec3_scale(u, 0.866f * side));
+        Vec3 beside = vec3_add(vec3_scale(d, 0.866f), vec3_scale(u, -0.5f * side));
+        Vec3 foot = vec3_scale(d, at * length);
+        Spike blade = {foot, vec3_madd(foot, far, out), (0.014f + 0.05f * far) * length};
+        add_blade(mesh, (*count)++, &blade, beside, upright);
+    }
+}
+
+Mesh *hoar_feathers(float spread, uint64_t key, Error *e)
+{
+    Mesh *mesh = mesh_new(3, 4 * BLADES, 4 * BLADES, 0, e);
+    if (!mesh) {
+        return NULL;
+    }
+    int64_t count = 0;
+    for (uint64_t i = 0; i < FRONDS; i++) {
+        uint64_t own = random_key(key, i);
+        float turn = random_range(random_key(own, 0), 0.0f, 2.0f * PI_F);
+        float tilt = spread * RADIANS_PER_DEGREE * (i == 0 ? 0.15f : random_unit(own));
+        float s, c, sine, cosine;
+        exact_sincos(tilt, &s, &c);
+        exact_sincos(turn, &sine, &cosine);
+        Vec3 d = vec3(s * cosine, c, s * sine);
+        Vec3 out = vec3_cross(d, vec3_perpendicular(d)), other = vec3_perpendicular(d);
+        exact_sincos(random_range(random_key(own, 1), 0.0f, PI_F), &s, &c);
+        Vec3 u = vec3_add(vec3_scale(out, c), vec3_scale(other, s));
+        float length = i == 0 ? 1.0f : random_range(random_key(own, 2), 0.35f, 0.85f);
+        add_frond(mesh, &count, d, u, length, random_key(own, 3));
+    }
+    return mesh;
+}

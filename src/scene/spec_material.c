@@ -56,6 +56,7 @@ static const EnumName PATTERNS[] = {{"none", PATTERN_NONE},
                                     {"ice", PATTERN_ICE},
                                     {"snow", PATTERN_SNOW},
                                     {"rubble", PATTERN_RUBBLE},
+                                    {"wood", PATTERN_WOOD},
                                     {0}};
 
 static const EnumName BARKS[] = {{"furrowed", BARK_FURROWED},
@@ -213,7 +214,9 @@ static const Key MATERIAL_KEYS[] = {
          "grains of rime (color2); snow: settled snow in hummocks of pattern_scale, with ripples "
          "of "
          "the wind in places, pits and crumbs of what fell from trees, and tracks of a fox "
-         "(scars); none: one colour."},
+         "(scars); wood: weathered wood with its fibres along the object's y axis: silver-grey "
+         "(color), dark between the fibres (color2), with knots, rings on the ends, and the checks "
+         "that a shape's checks open; none: one colour."},
     {KEY_OF(Material, bark, "bark", KEY_ENUM), .kinds = PATTERNED, .names = BARKS,
      .doc = "Pattern bark: its kind. furrowed: long ridges between deep furrows, as of oak, lime "
             "and ash, on thick branches; with a pattern_scale below 0.02, as of a miniature tree, "

@@ -84,10 +84,8 @@ static float mean_length(const Geometry *geometry)
     return sum / (float)tufts(geometry);
 }
 
-static void tufts_are_closed_and_one_high(void **state)
+static void assert_closed_and_one_high(Mesh *tuft)
 {
-    (void)state;
-    Mesh *tuft = hoar_tuft(50.0f, 7, NULL);
     assert_non_null(tuft);
     MeshTopology topology;
     assert_true(mesh_topology(tuft, &topology, NULL));
@@ -97,6 +95,58 @@ static void tufts_are_closed_and_one_high(void **state)
     Aabb box = mesh_bounds(tuft);
     assert_true(box.high.y > 0.9f && box.high.y <= 1.05f && box.low.y > -0.3f);
     mesh_free(tuft);
+}
+
+static void tufts_are_closed_and_one_high(void **state)
+{
+    (void)state;
+    assert_closed_and_one_high(hoar_tuft(50.0f, 7, NULL));
+    for (uint64_t key = 1; key < 6; key++) {
+        assert_closed_and_one_high(hoar_feathers(50.0f, key, NULL));
+    }
+}
+
+// Every blade's volume counts as that of a body that faces outward, and is small.
+static void feathers_face_outward_and_are_thin(void **state)
+{
+    (void)state;
+    Mesh *feathers = hoar_feathers(50.0f, 7, NULL);
+    assert_non_null(feathers);
+    for (int64_t i = 0; i < feathers->face_count; i += 4) {
+        Vec3 foot = feathers->position[feathers->index[3 * i]];
+        double volume = 0.0; // of a blade of four faces
+        for (int64_t k = i; k < i + 4; k++) {
+            const uint32_t *face = feathers->index + 3 * k;
+            Vec3 a = vec3_sub(feathers->position[face[0]], foot);
+            Vec3 b = vec3_sub(feathers->position[face[1]], foot);
+            Vec3 c = vec3_sub(feathers->position[face[2]], foot);
+            volume += (double)vec3_dot(a, vec3_cross(b, c)) / 6.0;
+        }
+        assert_true(volume > 0.0 && volume < 1e-3);
+    }
+    mesh_free(feathers);
+}
+
+// With variety most tufts are short and some longer than any without.
+static void tufts_vary_when_told(void **state)
+{
+    (void)state;
+    HoarParams params = still_air(), varied = params;
+    varied.variety = 1.0f;
+    int none = 0, small = 0, large = 0;
+    const int places = 4000;
+    for (int i = 0; i < places; i++) {
+        uint64_t key = random_key(3, (uint64_t)i);
+        Vec3 p = vec3_scale(random_direction(random_key(4, (uint64_t)i)), 1.0f);
+        float even = hoar_size_share(&params, p, key), share = hoar_size_share(&varied, p, key);
+        assert_true(even >= 0.35f && even <= 1.2f);
+        none += share == 0.0f;
+        small += share > 0.0f && share < 0.35f;
+        large += share > 1.2f;
+    }
+    assert_in_range(none, places / 10, places / 2);
+    assert_in_range(small, places / 5, 4 * places / 5);
+    assert_in_range(large, places / 100, places / 5);
 }
 
 static void as_many_tufts_as_density_and_length_ask_for(void **state)
@@ -161,6 +211,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tufts_are_closed_and_one_high),
+        cmocka_unit_test(feathers_face_outward_and_are_thin),
+        cmocka_unit_test(tufts_vary_when_told),
         cmocka_unit_test(as_many_tufts_as_density_and_length_ask_for),
         cmocka_unit_test(frost_grows_against_the_wind),
         cmocka_unit_test(a_clear_night_leaves_the_lower_side_bare),

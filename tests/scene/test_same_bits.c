@@ -50,6 +50,9 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"shape: {envelope: [{shape: box, size: [0.1, 0.2, 0.05]}], hoar: {length: 0.02, sky: "
          "0.5}}",
          0x790930f57f94ae71},
+        {"shape: {envelope: [{shape: cone, size: [0.06, 0.3, 0.05]}], voxel: 0.004, checks: 0.02, "
+         "hoar: {length: 0.02, habit: feathers, variety: 1}}",
+         0x1d9a480aaa74ed78},
         {"stone: {resolution: 8}", 0xda5f7a6a48381f4f},
         {"scatter: {count: 40, spacing: 0.3, things: [{stone: {resolution: 4}}, {tree: {species: "
          "oxeye_daisy}}]}",

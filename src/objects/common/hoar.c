@@ -30,9 +30,9 @@ static bool add_tuft(Hoar *hoar, Vec3 p, float radius, Vec3 along, uint64_t key,
     const HoarParams *params = hoar->params;
     Vec3 y = side_of(hoar, along, key);
     float thin = params->thickest / (params->thickest + radius);
-    float size = params->length * thin * random_range(random_key(key, STREAM_SIZE), 0.35f, 1.2f);
+    float size = params->length * thin * hoar_size_share(params, p, random_key(key, STREAM_SIZE));
     float share = sqrtf(hoar_sky_share(params, y.y, 1.0f)); // 1 unless frost grows by radiation
-    if (random_unit(random_key(key, STREAM_KEPT)) >= share) {
+    if (size == 0.0f || random_unit(random_key(key, STREAM_KEPT)) >= share) {
         return true;
     }
     Vec3 turned = vec3_lerp(along, vec3_cross(along, y),
@@ -119,5 +119,5 @@ bool hoar_add(const OutTree *tree, const SkinningParams *skinning, const HoarPar
         hoar_tufts_clear(&hoar.tufts);
         return false;
     }
-    return hoar_tufts_place(&hoar.tufts, hoar.seed, placing, role, e);
+    return hoar_tufts_place(&hoar.tufts, params->habit, hoar.seed, placing, role, e);
 }

@@ -8,13 +8,20 @@
 #include "objects/common/branches.h"
 #include "objects/common/recipe.h"
 
+typedef enum HoarHabit {
+    HOAR_NEEDLES,
+    HOAR_FEATHERS // flat fronds
+} HoarHabit;
+
 typedef struct HoarParams {
+    HoarHabit habit;
     float length;      // m, of the needles on thin twigs; 0 = none
     float density;     // 1 = as many tufts as stand free of each other
     float wind;        // degrees from +Z toward +X: where the wind blows
     float bias;        // 0 = all around; 1 = only against the wind
     float sky;         // 0 = all sides are equally cold; 1 = they cool by radiation to the sky
     float thickest;    // m: radius of branches on which needles are half as long
+    float variety;     // 0 = tufts of much the same length, evenly strewn; 1 = few large in patches
     int64_t max_count; // tufts
 } HoarParams;
 
@@ -32,6 +39,9 @@ float hoar_sky_share(const HoarParams *params, float up, float open);
 // the mean over all directions: the density of the branches' law, side = lerp(any, against, bias);
 // from a bias of 0.5 on, what a stream of droplets leaves: 4 times the cosine.
 float hoar_wind_share(const HoarParams *params, float cosine);
+
+// Length of the tuft at p relative to the mean of its kind of place; 0 = there is none.
+float hoar_size_share(const HoarParams *params, Vec3 p, uint64_t key);
 
 Vec3 hoar_against(const HoarParams *params); // the wind, unit
 

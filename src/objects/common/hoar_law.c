@@ -1,5 +1,7 @@
 // How much hoar frost grows where.
 #include "base/exact_math.h"
+#include "base/noise.h"
+#include "base/random.h"
 #include "objects/common/hoar.h"
 #include "objects/common/hoar_tufts.h"
 
@@ -40,4 +42,22 @@ float hoar_tufts_per_area(const HoarParams *params, float radius)
     float length = params->length, least = 0.1f * length; // needles hide what is finer
     float r = radius > least ? radius : least;
     return params->density * (1.0f + 1.5f * r / length) / (HOAR_SPACING * length * 2.0f * PI_F * r);
+}
+
+enum { SEED_PATCH = 0x40a9 };
+
+// With variety most tufts are short, few long, and these stand in patches: where crystals began
+// early they take the vapour from those around.
+float hoar_size_share(const HoarParams *params, Vec3 p, uint64_t key)
+{
+    float even = random_range(key, 0.35f, 1.2f);
+    if (params->variety <= 0.0f) {
+        return even;
+    }
+    float unit = random_unit(random_key(key, 1));
+    Vec3 q = vec3_scale(p, 1.0f / (2.2f * params->length));
+    float patch = 0.75f + 2.2f * noise_space(q, SEED_PATCH) +
+                  1.4f * noise_space(vec3_scale(q, 0.3f), SEED_PATCH + 1);
+    float share = lerpf(even, (0.2f + 1.3f * unit * unit * unit) * patch, params->variety);
+    return share > 0.12f ? share : 0.0f;
 }

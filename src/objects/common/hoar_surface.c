@@ -165,13 +165,17 @@ static bool grow_cell(HoarSurface *on, const Cell *cell, Judged judged, Error *e
     bool done = run_goes_on(on->run, ++on->count, e);
     for (int64_t i = 0; done && i < number; i++) {
         uint64_t key = random_key(cell->key, STREAM_TUFTS + (uint64_t)i);
+        Vec3 foot = point_in(cell, key);
+        float share = hoar_size_share(on->params, foot, random_key(key, STREAM_SIZE));
+        if (share == 0.0f) {
+            continue;
+        }
         Vec3 y = growth_direction(on, cell->normal, key);
-        float size = judged.size * random_range(random_key(key, STREAM_SIZE), 0.35f, 1.2f);
         Vec3 u = vec3_perpendicular(y);
         float turn = random_range(random_key(key, STREAM_TURN), 0.0f, 2.0f * PI_F), s, c;
         exact_sincos(turn, &s, &c);
         Vec3 turned = vec3_add(vec3_scale(u, c), vec3_scale(vec3_cross(y, u), s));
-        done = hoar_tufts_add(&on->out, point_in(cell, key), turned, y, size,
+        done = hoar_tufts_add(&on->out, foot, turned, y, share * judged.size,
                               random_key(key, STREAM_SHAPE), e);
     }
     return done;
@@ -319,5 +323,5 @@ bool hoar_add_on_mesh(const Mesh *mesh, const HoarParams *params, const Placing 
         hoar_tufts_clear(&on.out);
         return false;
     }
-    return hoar_tufts_place(&on.out, on.seed, placing, role, e);
+    return hoar_tufts_place(&on.out, params->habit, on.seed, placing, role, e);
 }

@@ -2,6 +2,8 @@
 #include "config/table.h"
 #include "objects/common/hoar.h"
 
+static const EnumName HABITS[] = {{"needles", HOAR_NEEDLES}, {"feathers", HOAR_FEATHERS}, {0}};
+
 static const Key HOAR_KEYS[] = {
     {KEY_OF(HoarParams, length, "length", KEY_FLOAT), .high = 1, .unit = "m",
      .doc = "Length of the needles on thin twigs and edges: 0.005 after a clear night, 0.03 after "
@@ -19,6 +21,13 @@ static const Key HOAR_KEYS[] = {
          "much as a side sees of the sky, none underneath. A mesh or shape shades itself."},
     {KEY_OF(HoarParams, thickest, "thickest", KEY_FLOAT), .flags = KEY_ABOVE, .high = 10,
      .unit = "m", .doc = "Radius of branches and thin parts on which needles are half as long."},
+    {KEY_OF(HoarParams, habit, "habit", KEY_ENUM), .names = HABITS,
+     .doc = "needles: with a few barbs, as in the cold; feathers: flat fronds with rows of blades "
+            "at 60 degrees, as of moist air at -10 to -20 degrees Celsius."},
+    {KEY_OF(HoarParams, variety, "variety", KEY_FLOAT), .high = 1,
+     .doc =
+         "How unlike each other the tufts are: 0 = much the same everywhere; 1 = most are small, "
+         "few are large, and these stand in patches."},
     {KEY_OF(HoarParams, max_count, "max_count", KEY_INT64), .low = 1, .high = 1e9,
      .doc = "Maximum number of tufts; with a warning, fewer stand farther apart."},
     {0},

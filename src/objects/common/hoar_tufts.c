@@ -30,20 +30,24 @@ void hoar_tufts_clear(HoarTufts *tufts)
 }
 
 // Takes the tufts of one shape over into a part, whose mesh is NULL on failure.
-static Part part_of(HoarTufts *tufts, int k, uint64_t seed, Error *e)
+static Part part_of(HoarTufts *tufts, int k, HoarHabit habit, uint64_t seed, Error *e)
 {
-    Part part = {.mesh = hoar_tuft(SPREAD, random_key(seed, (uint64_t)k), e),
+    uint64_t key = random_key(seed, (uint64_t)k);
+    Part part = {.mesh = habit == HOAR_FEATHERS ? hoar_feathers(SPREAD, key, e)
+                                                : hoar_tuft(SPREAD, key, e),
                  .instance = tufts->place[k],
                  .instance_count = tufts->count[k]};
     tufts->place[k] = NULL;
     return part;
 }
 
-bool hoar_tufts_place(HoarTufts *tufts, uint64_t seed, const Placing *placing, int role, Error *e)
+bool hoar_tufts_place(HoarTufts *tufts, HoarHabit habit, uint64_t seed, const Placing *placing,
+                      int role, Error *e)
 {
     bool done = true;
     for (int k = 0; done && k < HOAR_SHAPES; k++) {
-        done = tufts->count[k] == 0 || placing_add(placing, part_of(tufts, k, seed, e), role, e);
+        done = tufts->count[k] == 0 ||
+               placing_add(placing, part_of(tufts, k, habit, seed, e), role, e);
     }
     hoar_tufts_clear(tufts);
     return done;

@@ -2,6 +2,7 @@
 #ifndef RAMIFY_OBJECTS_COMMON_HOAR_TUFTS_H
 #define RAMIFY_OBJECTS_COMMON_HOAR_TUFTS_H
 
+#include "objects/common/hoar.h"
 #include "objects/common/recipe.h"
 
 enum { HOAR_SHAPES = 5 }; // of tufts
@@ -19,7 +20,8 @@ bool hoar_tufts_add(HoarTufts *tufts, Vec3 foot, Vec3 turned, Vec3 y, float size
                     Error *e);
 
 // Adds the tufts as instanced parts. Clears them, also on failure.
-bool hoar_tufts_place(HoarTufts *tufts, uint64_t seed, const Placing *placing, int role, Error *e);
+bool hoar_tufts_place(HoarTufts *tufts, HoarHabit habit, uint64_t seed, const Placing *placing,
+                      int role, Error *e);
 
 void hoar_tufts_clear(HoarTufts *tufts);
 

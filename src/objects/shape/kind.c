@@ -1,5 +1,6 @@
 // Envelopes drawn as they are, as a kind of object.
 #include "objects/kind.h"
+#include "mesh/wood.h"
 #include "objects/shape/shape.h"
 #include "shape/primitive.h"
 
@@ -36,8 +37,39 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
 
 static Envelope *make(const SolidParams *shape, const Run *run, Error *e)
 {
+    if (shape->checks > 0.0f && shape->shape_count == 1) { // a union with itself is a level set
+        Shape twice[2] = {shape->shapes[0], shape->shapes[0]};
+        return envelope_new(&(EnvelopeParams){twice, 2, shape->voxel}, run, e);
+    }
     EnvelopeParams params = {shape->shapes, shape->shape_count, shape->voxel};
     return envelope_new(&params, run, e);
+}
+
+// m, of triangles.
+static float mean_face_size(const Mesh *mesh)
+{
+    double area = 0.0;
+    for (int64_t i = 0; i < mesh->face_count; i++) {
+        const uint32_t *face = mesh->index + i * mesh->face_size;
+        Vec3 a = mesh->position[face[0]];
+        Vec3 across =
+            vec3_cross(vec3_sub(mesh->position[face[1]], a), vec3_sub(mesh->position[face[2]], a));
+        area += (double)vec3_length(across); // twice that of the triangle, as of a voxel's face
+    }
+    return sqrtf((float)(area / (double)(mesh->face_count > 0 ? mesh->face_count : 1)));
+}
+
+// Moves the surface, whose faces are about as large as voxels, to the relief of weathered wood.
+static bool carve(Mesh *mesh, const SolidParams *shape, const Run *run, Error *e)
+{
+    float finest = 2.0f * mean_face_size(mesh);
+    bool done = mesh->normal || mesh_compute_normals(mesh, e);
+    for (int64_t i = 0; done && i < mesh->vertex_count; i++) {
+        float height = wood_relief(mesh->position[i], mesh->normal[i], finest, shape->checks);
+        mesh->position[i] = vec3_madd(mesh->position[i], height, mesh->normal[i]);
+        done = run_goes_on(run, i, e);
+    }
+    return done && mesh_compute_normals(mesh, e);
 }
 
 static bool geometry(const void *given, const Grown *grown, const Placing *placing, Error *e)
@@ -50,6 +82,10 @@ static bool geometry(const void *given, const Grown *grown, const Placing *placi
     }
     Mesh *mesh = copy_mesh(envelope_surface(envelope), e);
     envelope_free(envelope);
+    if (mesh && shape->checks > 0.0f && !carve(mesh, shape, placing->recipe->run, e)) {
+        mesh_free(mesh);
+        return false;
+    }
     if (mesh && !hoar_add_on_mesh(mesh, &shape->hoar, placing, SHAPE_RIME, e)) {
         mesh_free(mesh);
         return false;
@@ -84,7 +120,8 @@ static void needs(const void *params, Needs *needs)
         needs_add(needs, "hoar.max_count", fmin(tufts, (double)shape->hoar.max_count),
                   HOAR_TUFT_BYTES);
     }
-    if (shape->shape_count == 1 && shape->shapes[0].kind != SHAPE_BODY) {
+    bool plain = shape->shape_count == 1 && shape->shapes[0].kind != SHAPE_BODY;
+    if (plain && shape->checks == 0.0f) {
         return; // no level set
     }
     double voxel = (double)shape->voxel;

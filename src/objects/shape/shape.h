@@ -9,6 +9,7 @@ typedef struct SolidParams {
     Shape *shapes;
     int shape_count;
     float voxel;
+    float checks; // m, depth of the deepest in weathered wood; 0 = no wood
     HoarParams hoar;
 } SolidParams;
 

@@ -9,6 +9,12 @@ static const Key SOLID_KEYS[] = {
     {KEY_OF(SolidParams, voxel, "voxel", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Voxel size, unless the envelope is a single plain shape; 0 = 1/128 of the largest "
             "extent."},
+    {KEY_OF(SolidParams, checks, "checks", KEY_FLOAT), .high = 1, .unit = "m",
+     .doc =
+         "Carves the shape as wood that has stood outside for years, with its fibres along its y "
+         "axis: worn grain, knots, swellings, and radial cracks (checks), the deepest this "
+         "deep; 0 = not of wood. It is a level set then, and a voxel of 0.001 shows all. "
+         "Material: pattern wood."},
     {KEY_OF(SolidParams, hoar, "hoar", KEY_GROUP), .table = &hoar_table,
      .doc = "Hoar frost on the surface."},
     {0},

@@ -76,7 +76,8 @@ typedef enum PatternKind {
     PATTERN_HEATH,      // dry turf of open slopes, bushes, stones, worn tracks of soil (color2)
     PATTERN_ICE,        // dark new ice: patches dulled by haze, grains of rime (color2)
     PATTERN_SNOW,       // hummocks, ripples of the wind, pits and crumbs of fallen clods
-    PATTERN_RUBBLE      // a wall of rough stones of all sizes in lime mortar
+    PATTERN_RUBBLE,     // a wall of rough stones of all sizes in lime mortar
+    PATTERN_WOOD        // weathered wood: fibres, knots, checks, rings on its ends
 } PatternKind;
 
 // Is relief displaced near the camera?

@@ -186,6 +186,7 @@ static void (*const APPLY[])(const Material *, const SurfacePoint *, PatternShad
     [PATTERN_RIVER] = pattern_river,       [PATTERN_DELTA] = pattern_delta,
     [PATTERN_SILT] = pattern_silt,         [PATTERN_HEATH] = pattern_heath,
     [PATTERN_ICE] = pattern_ice,           [PATTERN_SNOW] = pattern_snow,
+    [PATTERN_WOOD] = pattern_wood,
 };
 
 void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *shade)

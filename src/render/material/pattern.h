@@ -38,6 +38,7 @@ void pattern_masonry(const Material *material, const SurfacePoint *point, Patter
 float pattern_masonry_height(const Material *material, const SurfacePoint *point); // m
 void pattern_rubble(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_rubble_height(const Material *material, const SurfacePoint *point); // m
+void pattern_wood(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_stone(const Material *material, const SurfacePoint *point, PatternShade *shade);
 float pattern_stone_height(const Material *material, const SurfacePoint *point); // m
 void pattern_ground(const Material *material, const SurfacePoint *point, PatternShade *shade);
