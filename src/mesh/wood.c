@@ -24,13 +24,6 @@ static float turned(float angle)
     return angle > PI_F ? angle - 2.0f * PI_F : angle <= -PI_F ? angle + 2.0f * PI_F : angle;
 }
 
-static float smooth_step(float low, float high, float x)
-{
-    float t = (x - low) / (high - low);
-    t = t < 0.0f ? 0.0f : t > 1.0f ? 1.0f : t;
-    return t * t * (3.0f - 2.0f * t);
-}
-
 static Vec3 from_pith(Vec3 p)
 {
     const float off = 0.012f; // m
@@ -44,14 +37,14 @@ static void add_check(WoodPlace *place, float angle, float y, int number)
     const float step = 2.0f * PI_F / CHECKS;
     int own = ((number % CHECKS) + CHECKS) % CHECKS;
     uint64_t key = random_key(SEED_CHECK, (uint64_t)own);
-    float row = 3.7f * (float)own, wide = smooth_step(0.6f, 0.8f, random_unit(key));
+    float row = 3.7f * (float)own, wide = smoothstepf(0.6f, 0.8f, random_unit(key));
     float jitter = random_range(random_key(key, 1), 0.2f, 0.8f);
     float wander = 0.25f * noise_plane(y / 0.19f, row, SEED_CHECK + 1) +
                    0.06f * noise_plane(y / 0.03f, row, SEED_CHECK + 2);
     float off = turned(angle - step * ((float)number + jitter) - wander);
     float open = noise_plane(y / lerpf(0.16f, 0.5f, wide), row, SEED_CHECK + 3);
-    open = smooth_step(-0.25f, 0.2f, open + lerpf(-0.05f, 0.35f, wide));
-    float inward = smooth_step(0.006f, 0.04f, place->radius);
+    open = smoothstepf(-0.25f, 0.2f, open + lerpf(-0.05f, 0.35f, wide));
+    float inward = smoothstepf(0.006f, 0.04f, place->radius);
     float half = lerpf(0.0008f, 0.0034f, wide) * sqrtf(open) * inward; // m
     float t = half > 1e-5f ? fabsf(place->radius * off) / half : 1.0f;
     float check = t < 1.0f ? 1.0f - t * t : 0.0f;
@@ -75,7 +68,7 @@ static float add_knot(WoodPlace *place, float angle, float y, float row)
     float off = turned(angle - side), across = place->radius * off, along = y - at;
     float flow = across * across + along * along / 5.0f;
     float within = sqrtf(across * across + 0.7f * along * along) / size;
-    float knot = 1.0f - smooth_step(0.0f, 1.0f, within);
+    float knot = 1.0f - smoothstepf(0.0f, 1.0f, within);
     place->knot = knot > place->knot ? knot : place->knot;
     float inside = size * size, near = 1.0f - fabsf(off) / PI_F; // 0 on the other side of the stem
     return -across * near * inside / (flow > inside ? flow : inside);
@@ -104,7 +97,7 @@ WoodPlace wood_place(Vec3 p)
 
 float wood_end(Vec3 normal)
 {
-    return smooth_step(0.6f, 0.85f, fabsf(normal.y));
+    return smoothstepf(0.6f, 0.85f, fabsf(normal.y));
 }
 
 static float fibres(const WoodPlace *place, float across, float along, uint64_t seed)
