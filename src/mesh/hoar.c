@@ -91,7 +91,8 @@ static void add_frond(Mesh *mesh, int64_t *count, Vec3 d, Vec3 u, float length, 
     for (uint64_t k = 0; k < 2 * PAIRS; k++) {
         uint64_t own = random_key(key, 1 + k);
         float side = k % 2 == 0 ? 1.0f : -1.0f;
-        float at = ((float)(k / 2) + random_range(own, 0.6f, 1.1f)) / (PAIRS + 1);
+        uint64_t pair = k / 2;
+        float at = ((float)pair + random_range(own, 0.6f, 1.1f)) / (PAIRS + 1);
         float shape = at < 0.35f ? 0.45f + 1.57f * at : 1.55f * (1.0f - at);
         float far = reach * length * shape * random_range(random_key(own, 1), 0.6f, 1.1f);
         Vec3 out = vec3_add(vec3_scale(d, 0.5f), vec3_scale(u, 0.866f * side));
