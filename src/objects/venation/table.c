@@ -53,7 +53,7 @@ static const Key VENATION_KEYS[] = {
      .doc = "Radius below which veins lie in the blade, as in most broad leaves: lines with little "
             "chlorophyll above and below them, which shine against the light, between areoles that "
             "differ a little. Thicker ones stand out as tubes, the more the thicker they are. At "
-            "most 0.7 of the midrib. 0 = all stand out. Needs a blade."},
+            "most 0.95 of the midrib. 0 = all stand out. Needs a blade."},
     {KEY_OF(VenationParams, rows, "rows", KEY_INT), .high = 10000,
      .doc =
          "Rows of the blade's grid along the leaf, which carries its relief and the veins that lie "

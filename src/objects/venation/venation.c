@@ -36,7 +36,7 @@ VenationParams venation_params_resolve(const VenationParams *given)
     params.outline.width = params.outline.width > 0.0f ? params.outline.width : 0.5f * length;
     params.midrib = params.midrib > 0.0f ? params.midrib : 0.008f * length;
     params.vein = params.vein > 0.0f ? params.vein : 0.06f * mesh;
-    params.embedded = fminf(params.embedded, 0.7f * params.midrib); // some veins stand out
+    params.embedded = fminf(params.embedded, 0.95f * params.midrib); // the stalk stands out
     if (!params.blade) {
         params.wear = params.spots = params.hairs = 0.0f;
     }
