@@ -179,6 +179,50 @@ static void secondary_veins_arch_to_one_another(void **state)
     out_tree_free(tree);
 }
 
+// Every tertiary vein leaves a secondary one and ends, in a loop, on the next toward the tip, at a
+// wide angle; without any the secondary veins are as they were.
+static void tertiary_veins_cross_between_secondary_veins(void **state)
+{
+    (void)state;
+    enum { SECONDARIES = 6, TERTIARIES = 5, RUNGS = 2 * (SECONDARIES - 1) * TERTIARIES };
+    VeinParams params = vein_params_default();
+    params.birth = 0.2f, params.kill = 0.1f, params.step = 0.0007f;
+    params.secondaries = SECONDARIES;
+    OutTree *plain = grow(&params, NULL, NULL);
+    params.tertiaries = TERTIARIES;
+    VeinReport report;
+    OutTree *tree = grow(&params, NULL, &report);
+    int64_t pieces, loops, rungs = 0;
+    float along = 0.0f; // cosines to the course of the secondary veins
+    assert_true(out_tree_count_pieces(tree, &pieces, &loops, NULL));
+    assert_int_equal(pieces, 1);
+    assert_int_equal(loops, 2 * (SECONDARIES - 1) + RUNGS);
+    assert_int_equal(report.loops, loops);
+    assert_int_equal(count_closings(tree), loops);
+    bool *planted = calloc((size_t)tree->count, sizeof *planted); // also without tertiaries
+    for (int64_t i = 0, known = 0; i < tree->count; i++) {
+        planted[i] = known < plain->count &&
+                     vec3_distance(tree->position[i], plain->position[known]) == 0.0f;
+        known += planted[i];
+    }
+    for (int64_t i = 1; i < tree->count; i++) {
+        int32_t from = tree->parent[i];
+        if (!planted[i] && planted[from]) {
+            Vec3 way = vec3_normalize(vec3_sub(tree->position[i], tree->position[from]));
+            Vec3 course =
+                vec3_normalize(vec3_sub(tree->position[from], tree->position[tree->parent[from]]));
+            assert_true(tree->position[from].x != 0.0f); // not on the midrib
+            along += fabsf(vec3_dot(way, course));
+            rungs++;
+        }
+    }
+    assert_int_equal(rungs, RUNGS);
+    assert_true(along < 0.65f * RUNGS); // they cross, at 50 degrees and more in the mean
+    free(planted);
+    out_tree_free(plain);
+    out_tree_free(tree);
+}
+
 // A vein ends near the point of every tooth but perhaps the least, and none leaves the margin.
 static void veins_lead_to_the_points_of_teeth(void **state)
 {
@@ -313,6 +357,7 @@ int main(void)
         cmocka_unit_test(open_veins_come_to_every_source),
         cmocka_unit_test(closed_veins_have_loops),
         cmocka_unit_test(secondary_veins_arch_to_one_another),
+        cmocka_unit_test(tertiary_veins_cross_between_secondary_veins),
         cmocka_unit_test(veins_lead_to_the_points_of_teeth),
         cmocka_unit_test(a_larger_leaf_has_the_same_veins),
         cmocka_unit_test(veinlets_end_in_areoles),

@@ -402,6 +402,40 @@ static void rims_of_holes_are_dead_and_the_rest_is_green(void **state)
     worn_leaf_clear(&leaf);
 }
 
+// The grid has the rows it is given, about as wide as high, whatever the detail.
+static void rows_set_the_grid_of_the_blade(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.rows = 300;
+    WornLeaf leaf;
+    worn_leaf_init(&leaf, params);
+    assert_int_equal(leaf.relief.height, 300);
+    assert_in_range(leaf.relief.width, 150, 160); // half as wide as long
+    assert_int_equal(leaf.blade->vertex_count, 301 * (leaf.relief.width + 1));
+    worn_leaf_clear(&leaf);
+    params.rows = 2000; // above what the detail would ever take
+    worn_leaf_init(&leaf, params);
+    assert_int_equal(leaf.relief.height, 2000);
+    worn_leaf_clear(&leaf);
+}
+
+// The stalk stands out, whatever lies in the blade.
+static void the_stalk_stands_out(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.embedded = 1.0f;
+    VenationParams full = venation_params_resolve(&params);
+    assert_float_equal(full.embedded, 0.95f * full.midrib, 1e-9);
+    OutTree *tree = grow(&params);
+    CurveSet *curves = curves_of(tree, &full);
+    assert_true(curves->curve_count > 0);
+    assert_true(curves->radius[0] > 0.3f * full.midrib);
+    curves_free(curves);
+    out_tree_free(tree);
+}
+
 static void waves_rise_from_the_midrib_to_the_margin(void **state)
 {
     (void)state;
@@ -506,6 +540,8 @@ int main(void)
         cmocka_unit_test(thin_veins_lie_in_the_blade),
         cmocka_unit_test(a_worn_blade_is_what_teeth_and_holes_leave),
         cmocka_unit_test(rims_of_holes_are_dead_and_the_rest_is_green),
+        cmocka_unit_test(rows_set_the_grid_of_the_blade),
+        cmocka_unit_test(the_stalk_stands_out),
         cmocka_unit_test(waves_rise_from_the_midrib_to_the_margin),
         cmocka_unit_test(hairs_fringe_the_margin),
         cmocka_unit_test(hairs_bend_with_the_blade),

@@ -163,6 +163,26 @@ static void test_white_furnace(void **state)
     }
 }
 
+// Veins in a blade and dead rims show on a leaf without a pattern, too.
+static void a_plain_leaf_shows_what_is_painted_on_it(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_LEAF);
+    m.pattern = PATTERN_NONE;
+    m.variation = 0.0f;
+    MaterialSet *set = material_set_new(&m, NULL, 1, NULL, NULL);
+    SurfacePoint point = flat_point(false);
+    Bsdf plain = bsdf_at(set, &point, at_cosine(0.5f, 0.0f));
+    assert_memory_equal(&plain.color, &m.color, sizeof m.color);
+    point.young = 1.0f;
+    Bsdf vein = bsdf_at(set, &point, at_cosine(0.5f, 0.0f));
+    assert_true(vein.transmittance.y > 1.2f * plain.transmittance.y);
+    point.young = 0.0f, point.withered = 0.7f; // brown
+    Bsdf rim = bsdf_at(set, &point, at_cosine(0.5f, 0.0f));
+    assert_true(rim.color.x > rim.color.y && rim.transmittance.y < 0.5f * plain.transmittance.y);
+    material_set_free(set);
+}
+
 // Bubbles below a river's foam have the colour of its water: that of light which has come through
 // 3 m of it.
 static void bubbles_have_the_waters_colour(void **state)
@@ -528,6 +548,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_white_furnace),
+        cmocka_unit_test(a_plain_leaf_shows_what_is_painted_on_it),
         cmocka_unit_test(bubbles_have_the_waters_colour),
         cmocka_unit_test(foam_passes_light_on),
         cmocka_unit_test(test_mirrors),

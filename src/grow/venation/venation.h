@@ -30,6 +30,7 @@ typedef struct VeinParams {
                      // fades as the blade grows
     int secondaries; // secondary veins of the young blade on each side, which arch to one another;
                      // 0 = they, too, grow toward sources
+    int tertiaries;  // veins from each secondary vein to the next; 0 = they, too, grow
     uint64_t seed;
 } VeinParams;
 

@@ -3,12 +3,15 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "grow/venation/secondaries.h"
+#include "grow/venation/tertiaries.h"
 
 #define MIDRIB_NODES 24 // at least; more if the step asks for it
 #define VEIN_NODES 16   // at least, of a young secondary vein up to its arch
 #define ARCH_NODES 10   // ... and of its arch
+#define RUNG_NODES 6    // ... and of a tertiary vein
 
-enum { STREAM_ROOT_ID = 0 }; // of the seed
+enum { STREAM_ROOT_ID = 0 };     // of the seed
+enum { STREAM_TERTIARIES = -1 }; // of the secondary veins' key, which takes 0 and up itself
 
 uint64_t veins_root_id(uint64_t seed)
 {
@@ -57,16 +60,32 @@ static int pieces_of(const Leaf *leaf, float length, int least)
     return pieces > least ? pieces : least;
 }
 
+// A secondary vein that is planted: its nodes up to its turn follow each other.
+typedef struct Planted {
+    Secondary vein;
+    int64_t first; // of its nodes beyond the midrib
+    int pieces;
+} Planted;
+
+// Its node nearest to this share of the way to its turn.
+static int64_t planted_node(const Planted *planted, float t)
+{
+    int piece = (int)(t * (float)planted->pieces + 0.5f);
+    return planted->first + (piece > 1 ? piece - 1 : 0);
+}
+
 // *join: on entry the node of the next vein toward the tip where this one's arch ends; on return
 // that of this vein for the one below.
-static bool plant_secondary(Leaf *leaf, const Secondary *vein, int64_t midrib, int64_t *join,
-                            Error *e)
+static bool plant_secondary(Leaf *leaf, Planted *planted, int64_t midrib, int64_t *join, Error *e)
 {
     const LeafOutline *outline = &leaf->params->outline;
+    const Secondary *vein = &planted->vein;
     float s = leaf->scale;
     Vec3 base = secondary_point(outline, vein, 0.0f), turn = secondary_point(outline, vein, 1.0f);
     int pieces = pieces_of(leaf, s * vec3_distance(base, turn), VEIN_NODES);
     int64_t node = midrib_node(leaf, midrib, s * base.y), end = *join;
+    planted->first = leaf->tree->count;
+    planted->pieces = pieces;
     int joined = (int)((float)pieces * (SECONDARY_JOIN / SECONDARY_TURN) + 0.5f);
     for (int i = 1; node >= 0 && i <= pieces; i++) {
         float t = (float)i / (float)pieces;
@@ -86,6 +105,35 @@ static bool plant_secondary(Leaf *leaf, const Secondary *vein, int64_t midrib, i
     return node >= 0 && leaf_add_node(leaf, last, node, e) >= 0;
 }
 
+// From node to node of the two secondary veins. Smoothing moves neither end.
+static bool plant_tertiary(Leaf *leaf, const Planted *lower, const Planted *upper,
+                           const Tertiary *vein, Error *e)
+{
+    const LeafOutline *outline = &leaf->params->outline;
+    int64_t node = planted_node(lower, vein->from), end = planted_node(upper, vein->to);
+    Vec3 last = leaf->tree->position[end];
+    int pieces = pieces_of(leaf, vec3_distance(leaf->tree->position[node], last), RUNG_NODES);
+    for (int i = 1; node >= 0 && i < pieces; i++) {
+        float t = (float)i / (float)pieces;
+        Vec3 p = tertiary_point(outline, &lower->vein, &upper->vein, vein, t);
+        node = leaf_add_node(leaf, vec3_scale(p, leaf->scale), node, e);
+    }
+    leaf->report.loops++;
+    return node >= 0 && leaf_add_node(leaf, last, node, e) >= 0;
+}
+
+static bool plant_tertiaries(Leaf *leaf, const Planted *lower, const Planted *upper, uint64_t key,
+                             Error *e)
+{
+    for (int i = 0; i < leaf->params->tertiaries; i++) {
+        Tertiary vein = tertiary_make(i, leaf->params->tertiaries, key);
+        if (!plant_tertiary(leaf, lower, upper, &vein, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool plant_secondaries(Leaf *leaf, Error *e)
 {
     const VeinParams *params = leaf->params;
@@ -93,12 +141,17 @@ static bool plant_secondaries(Leaf *leaf, Error *e)
     uint64_t key = random_key(random_key(params->seed, STREAM_ROOT_ID), 0);
     for (int side = -1; side <= 1; side += 2) {
         int64_t join = -1;
+        Planted upper = {0};
         for (int i = params->secondaries - 1; i >= 0; i--) {
-            Secondary vein =
-                secondary_make(&params->outline, i, params->secondaries, (float)side, key);
-            if (!plant_secondary(leaf, &vein, midrib, &join, e)) {
+            Planted planted = {
+                secondary_make(&params->outline, i, params->secondaries, (float)side, key), 0, 0};
+            uint64_t own = random_key(random_key(key, (uint64_t)STREAM_TERTIARIES),
+                                      2 * (uint64_t)i + (side > 0));
+            if (!plant_secondary(leaf, &planted, midrib, &join, e) ||
+                (upper.pieces > 0 && !plant_tertiaries(leaf, &planted, &upper, own, e))) {
                 return false;
             }
+            upper = planted;
         }
     }
     return true;

@@ -186,9 +186,10 @@ static void set_size(Relief *relief)
 {
     const VenationParams *params = relief->params;
     int rows = params->detail * (params->embedded > 0.0f ? ROWS_OF_LINES : ROWS_PER_AREOLE);
-    relief->height = rows < LEAST_ROWS ? LEAST_ROWS : rows > MOST_ROWS ? MOST_ROWS : rows;
+    rows = rows < LEAST_ROWS ? LEAST_ROWS : rows > MOST_ROWS ? MOST_ROWS : rows;
+    relief->height = params->rows > 0 ? params->rows : rows;
     float columns = (float)relief->height * params->outline.width / params->outline.length;
-    relief->width = 8 + (int)fminf(columns, (float)MOST_ROWS);
+    relief->width = 8 + (int)fminf(columns, fmaxf((float)params->rows, (float)MOST_ROWS));
 }
 
 static bool paint_pale(Relief *relief, const OutTree *tree, Error *e)
@@ -231,7 +232,7 @@ bool relief_init(Relief *relief, const VenationParams *params, const OutTree *tr
     *relief = (Relief){.params = params, .width = FLAT_COLUMNS, .height = FLAT_ROWS};
     bool worn = params->wear > 0.0f || params->spots > 0.0f;
     if (params->relief != 0.0f || params->embedded > 0.0f || params->wave != 0.0f || worn ||
-        leaf_has_margin(&params->outline)) {
+        params->rows > 0 || leaf_has_margin(&params->outline)) {
         set_size(relief);
     }
     if (params->relief != 0.0f) {

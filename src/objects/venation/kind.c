@@ -23,8 +23,10 @@ static void needs(const void *params, Needs *needs)
 {
     const VenationParams *venation = params;
     enum { MESH_BYTES = 500 }; // per mesh of the vein network, in a blade half as wide as long
-    double detail = venation->detail;
+    enum { FACE_BYTES = 450 }; // per quad of the blade, where the number of its rows is given
+    double detail = venation->detail, rows = venation->blade ? venation->rows : 0;
     needs_add(needs, "detail", 0.4 * detail * detail, MESH_BYTES);
+    needs_add(needs, "rows", 0.5 * rows * rows, FACE_BYTES);
 }
 
 static const Material BUILTIN[] = {

@@ -38,6 +38,11 @@ static const Key VENATION_KEYS[] = {
     {KEY_OF(VenationParams, secondaries, "secondaries", KEY_INT), .high = 200,
      .doc = "Number of secondary veins on each half of the young blade, which bend toward the tip "
             "and arch to one another near the margin; 0 = they grow as all finer veins do."},
+    {KEY_OF(VenationParams, tertiaries, "tertiaries", KEY_INT), .high = 200,
+     .doc =
+         "Number of tertiary veins that cross from each secondary vein to the next, as rungs of a "
+         "ladder: about 10 on a beech's or hazel's leaf; 0 = they grow as all finer veins do. "
+         "Needs secondaries."},
     {KEY_OF(VenationParams, detail, "detail", KEY_INT), .low = 4, .high = 2000,
      .doc = "Number of areoles (meshes of the vein network) along the leaf's length."},
     {KEY_OF(VenationParams, midrib, "midrib", KEY_FLOAT), .high = 100, .unit = "m",
@@ -48,7 +53,12 @@ static const Key VENATION_KEYS[] = {
      .doc = "Radius below which veins lie in the blade, as in most broad leaves: lines with little "
             "chlorophyll above and below them, which shine against the light, between areoles that "
             "differ a little. Thicker ones stand out as tubes, the more the thicker they are. At "
-            "most half of the midrib. 0 = all stand out. Needs a blade."},
+            "most 0.95 of the midrib. 0 = all stand out. Needs a blade."},
+    {KEY_OF(VenationParams, rows, "rows", KEY_INT), .high = 10000,
+     .doc =
+         "Rows of the blade's grid along the leaf, which carries its relief and the veins that lie "
+         "in it; 0 = 4 to an areole, 6 with embedded veins, from 160 to 1600. A macro needs one "
+         "to each pixel or two."},
     {KEY_OF(VenationParams, smoothing, "smoothing", KEY_INT), .high = 1000,
      .doc = "Number of passes that smooth the bends of veins, which then taper without steps; 0 = "
             "straight pieces as they grew."},

@@ -36,7 +36,7 @@ VenationParams venation_params_resolve(const VenationParams *given)
     params.outline.width = params.outline.width > 0.0f ? params.outline.width : 0.5f * length;
     params.midrib = params.midrib > 0.0f ? params.midrib : 0.008f * length;
     params.vein = params.vein > 0.0f ? params.vein : 0.06f * mesh;
-    params.embedded = fminf(params.embedded, 0.5f * params.midrib); // some veins stand out
+    params.embedded = fminf(params.embedded, 0.95f * params.midrib); // the stalk stands out
     if (!params.blade) {
         params.wear = params.spots = params.hairs = 0.0f;
     }
@@ -64,6 +64,7 @@ static VeinParams vein_params(const VenationParams *params, uint64_t seed)
     veins.closed = params->closed;
     veins.marginal = params->marginal;
     veins.secondaries = params->secondaries;
+    veins.tertiaries = params->tertiaries;
     veins.birth = params->outline.length / (float)params->detail;
     veins.kill = 0.5f * veins.birth;
     veins.step = 0.25f * veins.birth;

@@ -14,7 +14,9 @@ typedef struct VenationParams {
     bool closed;         // veins with loops; otherwise a tree
     bool marginal;       // the blade grows at its margin; otherwise evenly
     int secondaries;     // on each half, looped near the margin; 0 = grown as all others
+    int tertiaries;      // from each secondary vein to the next; 0 = grown as all others
     int detail;          // meshes of the net along the leaf's length
+    int rows;            // of the blade's grid; 0 = by the detail
     int smoothing;       // passes that round the veins' bends; with any, radii change gradually
     float midrib;        // m, radius at the base; 0 = 0.008 of the length
     float vein;          // m, radius of the finest; 0 = 0.06 of a mesh

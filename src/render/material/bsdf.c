@@ -45,7 +45,8 @@ void bsdf_shade(const MaterialEntry *entry, const SurfacePoint *point, Bsdf *b)
                 .roughness = m->roughness,
                 .alpha = entry->alpha,
                 .table = entry->table};
-    if (m->pattern != PATTERN_NONE || m->variation > 0.0f || point->season != 0.0f) {
+    if (m->pattern != PATTERN_NONE || m->variation > 0.0f || point->season != 0.0f ||
+        point->young > 0.0f || point->withered > 0.0f) {
         PatternShade shade = {m->color, m->transmittance, point->normal, 0.0f, m->roughness};
         pattern_apply(m, point, &shade);
         if (b->traits & TRAIT_PATTERNED) {
