@@ -30,6 +30,15 @@ static void add_spike(Mesh *mesh, int64_t number, const Spike *spike)
     }
 }
 
+// tilt: from +Y, radians; which way is by chance.
+static Vec3 direction_of(float tilt, uint64_t key)
+{
+    float s, c, sine, cosine;
+    exact_sincos(tilt, &s, &c);
+    exact_sincos(random_range(random_key(key, 0), 0.0f, 2.0f * PI_F), &sine, &cosine);
+    return vec3(s * cosine, c, s * sine);
+}
+
 Mesh *hoar_tuft(float spread, uint64_t key, Error *e)
 {
     Mesh *mesh = mesh_new(3, 4 * SPIKES, 4 * SPIKES, 0, e);
@@ -39,12 +48,9 @@ Mesh *hoar_tuft(float spread, uint64_t key, Error *e)
     int64_t count = 0;
     for (uint64_t i = 0; i < NEEDLES; i++) {
         uint64_t own = random_key(key, i);
-        float turn = random_range(random_key(own, 0), 0.0f, 2.0f * PI_F);
-        float tilt = spread * RADIANS_PER_DEGREE * (i == 0 ? 0.2f : random_unit(own));
-        float s, c, sine, cosine;
-        exact_sincos(tilt, &s, &c);
-        exact_sincos(turn, &sine, &cosine);
-        Vec3 d = vec3(s * cosine, c, s * sine), u = vec3_perpendicular(d);
+        Vec3 d =
+            direction_of(spread * RADIANS_PER_DEGREE * (i == 0 ? 0.2f : random_unit(own)), own);
+        Vec3 u = vec3_perpendicular(d);
         float length = i == 0 ? 1.0f : random_range(random_key(own, 1), 0.45f, 0.9f);
         Spike needle = {.tip = vec3_scale(d, length), .width = 0.05f * length};
         add_spike(mesh, count++, &needle);
@@ -112,12 +118,9 @@ Mesh *hoar_feathers(float spread, uint64_t key, Error *e)
     int64_t count = 0;
     for (uint64_t i = 0; i < FRONDS; i++) {
         uint64_t own = random_key(key, i);
-        float turn = random_range(random_key(own, 0), 0.0f, 2.0f * PI_F);
-        float tilt = spread * RADIANS_PER_DEGREE * (i == 0 ? 0.15f : random_unit(own));
-        float s, c, sine, cosine;
-        exact_sincos(tilt, &s, &c);
-        exact_sincos(turn, &sine, &cosine);
-        Vec3 d = vec3(s * cosine, c, s * sine);
+        float s, c;
+        Vec3 d =
+            direction_of(spread * RADIANS_PER_DEGREE * (i == 0 ? 0.15f : random_unit(own)), own);
         Vec3 out = vec3_cross(d, vec3_perpendicular(d)), other = vec3_perpendicular(d);
         exact_sincos(random_range(random_key(own, 1), 0.0f, PI_F), &s, &c);
         Vec3 u = vec3_add(vec3_scale(out, c), vec3_scale(other, s));

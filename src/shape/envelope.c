@@ -84,7 +84,7 @@ static bool build(Envelope *envelope, Piece *pieces, const EnvelopeParams *param
 {
     int count = params->shape_count;
     bool primitive = !pieces[0].mesh && pieces[0].shape->kind != SHAPE_BODY;
-    if (count == 1 && primitive) {
+    if (count == 1 && primitive && !params->voxelized) {
         return become_primitive(envelope, &pieces[0].primitive, e);
     }
     Aabb inside;

@@ -47,6 +47,7 @@ typedef struct EnvelopeParams {
     const Shape *shapes; // borrowed
     int shape_count;     // >= 1
     float voxel;         // m, voxel size of level sets; 0 = largest extent / 128
+    bool voxelized; // a single primitive becomes a level set, too, with faces of a voxel's size
 } EnvelopeParams;
 
 // One of the places around it where a surface is seen again.

@@ -487,7 +487,8 @@ static void an_envelope_bounds_the_crown(void **state)
                   .size = {1.0f, 0, 0},
                   .transform = transform_compose(vec3(0, 1.8f, 0), vec3(0, 0, 0), vec3_splat(1))};
     Run run = run_default();
-    Envelope *envelope = envelope_new(&(EnvelopeParams){&ball, 1, 0}, &run, NULL);
+    Envelope *envelope =
+        envelope_new(&(EnvelopeParams){.shapes = &ball, .shape_count = 1, .voxel = 0}, &run, NULL);
     LightSite site = open_site(16);
     site.envelope = envelope;
     OutTree *tree = grow(&params, &site, 1);

@@ -284,7 +284,7 @@ static void discharges_stay_over_their_surface(void **state)
         params.bolts = 2;
         params.lift = 1e-5f; // what lies off the surface then is the growth's own error
         OutTree *tree = grow(&params, 6);
-        EnvelopeParams shape = {shapes, count, 0.0f};
+        EnvelopeParams shape = {.shapes = shapes, .shape_count = count, .voxel = 0.0f};
         Run run = run_default();
         Envelope *envelope = envelope_new(&shape, &run, NULL);
         // a sphere is known exactly, a level set to a share of its voxels of 25 mm

@@ -100,7 +100,7 @@ static void arteries_and_veins_fill_the_organ_apart(void **state)
     measures_clear(&list);
 
     Run run = run_default();
-    EnvelopeParams shapes = {&shape, 1, 0};
+    EnvelopeParams shapes = {.shapes = &shape, .shape_count = 1, .voxel = 0};
     Envelope *envelope = envelope_new(&shapes, &run, NULL);
     assert_non_null(envelope);
     for (int64_t i = 0; i < tree->count; i++) {
@@ -195,7 +195,7 @@ static void a_body_is_supplied_to_its_ends(void **state)
         assert_true(box.low.x < -0.36f && box.high.x > 0.36f); // hands
     }
     Run run = run_default();
-    EnvelopeParams shapes = {&shape, 1, 0.012f};
+    EnvelopeParams shapes = {.shapes = &shape, .shape_count = 1, .voxel = 0.012f};
     Envelope *envelope = envelope_new(&shapes, &run, NULL);
     assert_non_null(envelope);
     for (int64_t i = 0; i < tree->count; i++) { // the great vessels too
@@ -240,7 +240,7 @@ static void a_bodys_hands_and_feet_are_filled(void **state)
     params.element.voxel = 0.004f;
     OutTree *tree = grow(&params, 2, 1.0f);
     Run run = run_default();
-    EnvelopeParams shapes = {&shape, 1, 0.004f};
+    EnvelopeParams shapes = {.shapes = &shape, .shape_count = 1, .voxel = 0.004f};
     Envelope *envelope = envelope_new(&shapes, &run, NULL);
     assert_non_null(envelope);
     for (int side = -1; side <= 1; side += 2) {

@@ -43,7 +43,7 @@ static bool add_level_set(GridFile *grids, Error *e)
     Shape shape = {.kind = SHAPE_BOX,
                    .size = {4, 4, 4},
                    .transform = transform_compose(vec3_splat(0), vec3_splat(0), vec3_splat(1))};
-    EnvelopeParams params = {&shape, 1, 0.1f};
+    EnvelopeParams params = {.shapes = &shape, .shape_count = 1, .voxel = 0.1f};
     Envelope *envelope = envelope_new(&params, &run, e);
     bool done = envelope && envelope_add_to(envelope, "level", grids, &run, e);
     envelope_free(envelope);

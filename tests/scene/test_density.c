@@ -75,7 +75,7 @@ static void write_ball(const Fixture *fixture)
     Run run = run_default();
     Error e = {0};
     Shape shape = {.kind = SHAPE_SPHERE, .size = {1, 1, 1}, .transform = transform_identity()};
-    EnvelopeParams params = {&shape, 1, 0.02f};
+    EnvelopeParams params = {.shapes = &shape, .shape_count = 1, .voxel = 0.02f};
     Envelope *envelope = envelope_new(&params, &run, &e);
     GridFile *grids = grid_file_new(&e);
     snprintf(file, sizeof file, "%s/ball.vdb", fixture->folder);

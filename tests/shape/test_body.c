@@ -16,7 +16,7 @@ static void the_body_is_one_closed_surface_of_its_height(void **state)
 {
     (void)state;
     Shape shape = body_shape(1.75f);
-    EnvelopeParams params = {&shape, 1, 0.01f};
+    EnvelopeParams params = {.shapes = &shape, .shape_count = 1, .voxel = 0.01f};
     Run run = run_default();
     Envelope *envelope = envelope_new(&params, &run, NULL);
     assert_non_null(envelope);

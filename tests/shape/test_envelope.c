@@ -361,7 +361,8 @@ static void refuses_what_is_no_envelope(void **state)
          "move them"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        EnvelopeParams params = {cases[i].shapes, cases[i].count, cases[i].voxel};
+        EnvelopeParams params = {
+            .shapes = cases[i].shapes, .shape_count = cases[i].count, .voxel = cases[i].voxel};
         Run run = run_default();
         Error e = {0};
         assert_null(envelope_new(&params, &run, &e));

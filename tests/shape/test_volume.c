@@ -23,7 +23,7 @@ static int set_up(void **state)
     Shape shape = {.kind = SHAPE_SPHERE,
                    .size = {1, 1, 1},
                    .transform = transform_compose(middle, vec3_splat(0), vec3_splat(1))};
-    EnvelopeParams params = {&shape, 1, 0.04f};
+    EnvelopeParams params = {.shapes = &shape, .shape_count = 1, .voxel = 0.04f};
     Envelope *envelope = envelope_new(&params, &run, &e);
     GridFile *grids = envelope ? grid_file_new(&e) : NULL;
     bool done = grids && envelope_add_to(envelope, "ball", grids, &run, &e) && mkdtemp(folder);

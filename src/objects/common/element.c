@@ -206,7 +206,8 @@ bool element_grow_in(OutTree *tree, int64_t nuclei, const ElementParams *element
 
 Envelope *element_envelope(const ElementParams *element, const Run *run, Error *e)
 {
-    EnvelopeParams params = {element->shapes, element->shape_count, element->voxel};
+    EnvelopeParams params = {
+        .shapes = element->shapes, .shape_count = element->shape_count, .voxel = element->voxel};
     return envelope_new(&params, run, e);
 }
 

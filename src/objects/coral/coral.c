@@ -79,7 +79,8 @@ static int boulder(const CoralParams *p, uint64_t seed, Shape *shapes, int most)
 Envelope *coral_base(const CoralParams *p, uint64_t seed, const Run *run, Error *e)
 {
     Shape shapes[16];
-    EnvelopeParams params = {p->base, p->base_count, p->size / 110.0f};
+    EnvelopeParams params = {
+        .shapes = p->base, .shape_count = p->base_count, .voxel = p->size / 110.0f};
     if (p->base_count == 0) {
         params.shapes = shapes;
         params.shape_count = boulder(p, random_key(seed, STREAM_CORAL_BOULDER), shapes, 16);
@@ -163,7 +164,7 @@ static Envelope *room(const CoralParams *p, uint64_t seed, const Run *run, Error
     if (p->form == CORAL_TABLE) { // a few across the plate
         voxel = fminf(voxel, 0.4f * p->plate);
     }
-    EnvelopeParams params = {shapes, count, voxel};
+    EnvelopeParams params = {.shapes = shapes, .shape_count = count, .voxel = voxel};
     Envelope *envelope = envelope_new(&params, run, e);
     free(shapes);
     return envelope;

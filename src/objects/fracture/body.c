@@ -69,7 +69,9 @@ static bool make_envelope(FractureBody *body, const FractureParams *params, floa
                           const Run *run, Error *e)
 {
     Shape ball = {.kind = SHAPE_SPHERE, .size = {1, 1, 1}, .transform = transform_identity()};
-    EnvelopeParams form = {params->element.shapes, params->element.shape_count, voxel};
+    EnvelopeParams form = {.shapes = params->element.shapes,
+                           .shape_count = params->element.shape_count,
+                           .voxel = voxel};
     if (form.shape_count == 0) {
         form.shapes = &ball;
         form.shape_count = 1;

@@ -37,11 +37,10 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
 
 static Envelope *make(const SolidParams *shape, const Run *run, Error *e)
 {
-    if (shape->checks > 0.0f && shape->shape_count == 1) { // a union with itself is a level set
-        Shape twice[2] = {shape->shapes[0], shape->shapes[0]};
-        return envelope_new(&(EnvelopeParams){twice, 2, shape->voxel}, run, e);
-    }
-    EnvelopeParams params = {shape->shapes, shape->shape_count, shape->voxel};
+    EnvelopeParams params = {.shapes = shape->shapes,
+                             .shape_count = shape->shape_count,
+                             .voxel = shape->voxel,
+                             .voxelized = shape->checks > 0.0f};
     return envelope_new(&params, run, e);
 }
 

@@ -86,7 +86,8 @@ bool swarm_places_init(ThingPlaces *places, const SwarmParams *params, const Rec
                        Error *e)
 {
     Clumps clumps = {params, random_key(recipe->seed, STREAM_CLUMPS)};
-    EnvelopeParams region = {params->shapes, params->shape_count, params->voxel};
+    EnvelopeParams region = {
+        .shapes = params->shapes, .shape_count = params->shape_count, .voxel = params->voxel};
     ScatterParams scatter = scatter_params_default();
     scatter.count = params->spacing > 0.0f ? TRIES * params->count : params->count;
     scatter.seed = random_key(recipe->seed, STREAM_POINTS);
