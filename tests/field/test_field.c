@@ -370,7 +370,7 @@ static void curvature_leads_around_or_along(void **state)
         {.kind = SHAPE_ELLIPSOID, .size = {0.5f, 1.5f, 0.5f}, .transform = transform_identity()},
         {.kind = SHAPE_SPHERE, .size = {1, 1, 1}, .transform = transform_identity()}};
     for (int i = 0; i < 6; i++) {
-        EnvelopeParams envelope_params = {&shapes[i / 2], 1, 0};
+        EnvelopeParams envelope_params = {.shapes = &shapes[i / 2], .shape_count = 1};
         Envelope *envelope = envelope_new(&envelope_params, &run, &e);
         FieldParams params = field_params_default(FIELD_CURVATURE);
         params.vector = vec3(0.1f, 1, 0.2f);

@@ -159,7 +159,7 @@ static PointSet *scatter(const Shape *shapes, int count, ScatterPlace place, flo
 {
     Run run = run_default();
     run.threads = threads;
-    EnvelopeParams envelope_params = {shapes, count, 0.03f};
+    EnvelopeParams envelope_params = {.shapes = shapes, .shape_count = count, .voxel = 0.03f};
     Envelope *envelope = envelope_new(&envelope_params, &run, NULL);
     ScatterParams params = scatter_params_default();
     params.place = place;
