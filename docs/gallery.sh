@@ -266,7 +266,7 @@ species_rows species
 species_rows species-winter
 still ivy-wall ivy-wall
 still olive-trunk olive-trunk
-fine pine-rock pine-rock 5
+still pine-rock pine-rock
 still leaves-sun leaves-sun
 fine willow-lake willow-lake 5
 fine pond pond 5
