@@ -8,9 +8,9 @@
 // A straight, round tube; youth: its births (0..1), higher at the rim.
 Mesh *polyp_cup(float height, float youth, Error *e);
 
-// A cup as of Acropora: it bends out of the tissue and along the branch, toward -Z, its outer lip
-// is longer than its inner one, and no two are alike. (Wallace 1999, Staghorn corals of the world:
-// "nariform" and "tubo-nariform" radial corallites.)
+// A cup as of Acropora, "nariform" in descriptions of its species: it bends out of the tissue and
+// along the branch, toward -Z, its outer lip is longer than its inner one, and no two are alike.
+// The proportions are our own.
 typedef struct NoseCup {
     float height;  // of the outer wall, along the cup's bent axis
     float lean;    // degrees by which the axis is bent at the rim
