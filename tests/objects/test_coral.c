@@ -2,6 +2,7 @@
 #include "making.h"
 #include "objects/coral/coral.h"
 #include "objects/coral/crust.h"
+#include "objects/coral/cup.h"
 #include "objects/coral/polyps.h"
 #include "testing.h"
 
@@ -9,6 +10,7 @@
 #include "outtree/join.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static OutTree *grow(const CoralParams *params, int threads)
@@ -166,32 +168,108 @@ static void growth_in_progress_is_a_part_of_the_whole(void **state)
     out_tree_free(half);
 }
 
+// Cups by their frames.
+typedef struct Cups {
+    Transform frame[6000];
+    int64_t count;
+} Cups;
+
+static void take_cups(const CoralParams *params, const OutTree *tree, Cups *cups)
+{
+    Geometry geometry = geometry_of(params, tree, 1);
+    cups->count = 0;
+    for (int64_t i = 0; i < geometry.count; i++) {
+        const Part *part = &geometry.part[i];
+        for (int64_t k = 0; k < part->instance_count && part->material == 2; k++) {
+            assert_true(cups->count < 6000);
+            cups->frame[cups->count++] = part->instance[k];
+        }
+    }
+    geometry_clear(&geometry);
+}
+
+static float least_distance(const Cups *cups)
+{
+    float least = INFINITY;
+    for (int64_t i = 0; i < cups->count; i++) {
+        Vec3 p = transform_point(&cups->frame[i], vec3(0, 0, 0));
+        for (int64_t k = 0; k < i; k++) {
+            Vec3 other = transform_point(&cups->frame[k], vec3(0, 0, 0));
+            least = fminf(least, vec3_distance(p, other));
+        }
+    }
+    return least;
+}
+
 static void cups_keep_their_distance_and_lean_to_the_tip(void **state)
 {
     (void)state;
+    static Cups cups;
     CoralParams params = small(CORAL_BRANCHING);
     params.generations = 2;
     params.polyps.max_count = 2000;
     OutTree *tree = grow(&params, 1);
-    Geometry geometry = geometry_of(&params, tree, 1);
-    Vec3 place[2000];
-    int64_t count = 0;
-    for (int64_t i = 0; i < geometry.count; i++) {
-        const Part *part = &geometry.part[i];
-        for (int64_t k = 0; k < part->instance_count && part->material == 2; k++) {
-            assert_true(count < 2000);
-            place[count++] = transform_point(&part->instance[k], vec3(0, 0, 0));
-        }
-    }
-    assert_true(count > 500);
+    take_cups(&params, tree, &cups);
+    assert_true(cups.count > 500 && cups.count < 2000);
     float spacing = coral_params_resolve(&params).polyps.spacing;
-    for (int64_t i = 0; i < count; i++) {
-        for (int64_t k = 0; k < i; k++) {
-            assert_true(vec3_distance(place[i], place[k]) > 0.999f * spacing);
+    assert_true(least_distance(&cups) > 0.999f * spacing);
+    out_tree_free(tree);
+}
+
+// Cups are added between the others, at most 0.6 of their size, and none of the others moves.
+static void small_cups_fill_gaps(void **state)
+{
+    (void)state;
+    static Cups few, many;
+    CoralParams params = small(CORAL_BRANCHING);
+    params.generations = 2;
+    params.polyps.shape = POLYP_NOSE;
+    params.polyps.max_count = 5000;
+    OutTree *tree = grow(&params, 1);
+    take_cups(&params, tree, &few);
+    params.polyps.fill = 1.0f;
+    take_cups(&params, tree, &many);
+    CoralParams p = coral_params_resolve(&params);
+    assert_true(many.count > few.count + few.count / 3);
+    assert_true(least_distance(&many) > 0.57f * p.polyps.spacing);
+    int64_t kept = 0, small_ones = 0;
+    for (int64_t i = 0; i < many.count; i++) {
+        float size = vec3_length(transform_vector(&many.frame[i], vec3(1, 0, 0)));
+        small_ones += size < 0.65f * p.polyps.diameter;
+        for (int64_t k = 0; k < few.count; k++) {
+            kept += memcmp(&many.frame[i], &few.frame[k], sizeof few.frame[k]) == 0;
         }
     }
-    geometry_clear(&geometry);
+    assert_int_equal(kept, few.count);
+    assert_true(small_ones >= many.count - few.count);
     out_tree_free(tree);
+}
+
+// With a taper, branches are thinnest at their tips and nowhere thicker than nearer to the root.
+static void branches_taper_to_their_tips(void **state)
+{
+    (void)state;
+    CoralParams params = small(CORAL_BRANCHING);
+    OutTree *plain = grow(&params, 1);
+    params.taper = 0.1f;
+    OutTree *tapered = grow(&params, 1);
+    float tip_radius = coral_params_resolve(&params).tip_radius;
+    bool *bears = calloc((size_t)tapered->count, sizeof *bears);
+    int thinner = 0;
+    for (int64_t i = tapered->count - 1; i >= 0; i--) {
+        int32_t parent = tapered->parent[i];
+        thinner += tapered->radius[i] < 0.9f * plain->radius[i];
+        assert_true(bears[i] || tapered->radius[i] < 0.5f * tip_radius);
+        assert_true(parent < 0 || tapered->radius[i] < tapered->radius[parent] * 1.0001f);
+        if (parent >= 0) {
+            bears[parent] = true;
+        }
+    }
+    assert_true(thinner > 100);
+    assert_true(tapered->radius[0] == plain->radius[0]); // far from all tips
+    free(bears);
+    out_tree_free(plain);
+    out_tree_free(tapered);
 }
 
 static int64_t loops_of(const OutTree *tree)
@@ -348,6 +426,53 @@ static void a_cup_is_open_and_faces_outward(void **state)
     mesh_free(cup);
 }
 
+// A cup bends toward -z, its lip is longer on the outer side, no two are alike, and tentacles
+// are pieces of their own that reach beyond the mouth.
+static void a_nose_bends_to_the_tip(void **state)
+{
+    (void)state;
+    NoseCup plain = {.height = 1.2f, .lean = 50.0f, .oblique = 0.3f, .flare = 1.0f, .youth = 0.3f};
+    NoseCup around = plain, other = plain, out = plain, straight = plain;
+    straight.lean = 0.0f;
+    around.girth = 3.0f;
+    other.seed = 2;
+    out.reach = 0.8f;
+    Mesh *cup = polyp_nose(&plain, NULL), *second = polyp_nose(&other, NULL);
+    Mesh *bent = polyp_nose(&around, NULL), *polyp = polyp_nose(&out, NULL);
+    Mesh *upright = polyp_nose(&straight, NULL);
+    MeshTopology topology;
+    assert_true(mesh_topology(cup, &topology, NULL));
+    assert_int_equal(topology.open_edges, 36); // its foot, in the branch
+    assert_int_equal(topology.misoriented_edges + topology.overused_edges, 0);
+    assert_true(mesh_topology(polyp, &topology, NULL));
+    assert_int_equal(topology.open_edges, 36 + 12 * 6);
+    assert_int_equal(topology.component_count, 13);
+    assert_int_equal(topology.misoriented_edges + topology.overused_edges, 0);
+    assert_true(mesh_bounds(polyp).high.y > mesh_bounds(cup).high.y + 0.1f);
+    enum { LIP = 10 * 36, INNER = LIP + 9, OUTER = LIP + 27 };
+    Vec3 inner = cup->position[INNER], outer = cup->position[OUTER];
+    assert_true(0.5f * (inner.z + outer.z) < -0.3f);
+    inner = upright->position[INNER], outer = upright->position[OUTER];
+    assert_float_equal(outer.y - inner.y, plain.oblique * plain.height, 0.15f);
+    assert_float_equal(inner.z + outer.z, 0.0f, 0.1f);
+    float apart = 0.0f;
+    for (int64_t i = LIP; i < LIP + 36; i++) {
+        apart = fmaxf(apart, vec3_distance(cup->position[i], second->position[i]));
+    }
+    assert_true(apart > 0.02f);
+    // around a branch its foot sinks at the sides and nowhere else
+    assert_true(bent->position[0].y < cup->position[0].y - 0.1f);
+    assert_true(bent->position[9].y == cup->position[9].y);
+    for (int64_t i = 0; i < 36; i++) {
+        assert_true(cup->normal[i].y > 0.5f); // it leaves along the skin
+    }
+    mesh_free(cup);
+    mesh_free(second);
+    mesh_free(bent);
+    mesh_free(polyp);
+    mesh_free(upright);
+}
+
 static void a_wrong_rule_is_one_clear_error(void **state)
 {
     (void)state;
@@ -372,11 +497,14 @@ int main(void)
         cmocka_unit_test(colonies_leave_a_bare_seam),
         cmocka_unit_test(growth_in_progress_is_a_part_of_the_whole),
         cmocka_unit_test(cups_keep_their_distance_and_lean_to_the_tip),
+        cmocka_unit_test(small_cups_fill_gaps),
+        cmocka_unit_test(branches_taper_to_their_tips),
         cmocka_unit_test(fused_branches_are_a_net),
         cmocka_unit_test(a_stalk_may_stand_aside),
         cmocka_unit_test(a_plate_may_be_uneven),
         cmocka_unit_test(a_fan_may_be_uneven),
         cmocka_unit_test(a_cup_is_open_and_faces_outward),
+        cmocka_unit_test(a_nose_bends_to_the_tip),
         cmocka_unit_test(a_wrong_rule_is_one_clear_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

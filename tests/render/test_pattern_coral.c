@@ -199,12 +199,53 @@ static void test_reef(void **state)
     assert_true(bitten > 0.01f && bitten < 0.3f);
 }
 
+// Young tissue has color2, old tissue color, and a leaf lets light through in the same proportion.
+// The grain leans the normal up close, not from afar, and not without a depth.
+static void test_youth(void **state)
+{
+    (void)state;
+    Material m = {.kind = MATERIAL_LEAF,
+                  .color = vec3(0.4f, 0.2f, 0.1f),
+                  .color2 = vec3(0.6f, 0.5f, 0.5f),
+                  .transmittance = vec3(0.2f, 0.1f, 0.05f),
+                  .pattern = PATTERN_YOUTH};
+    Vec3 up = vec3(0, 1, 0);
+    int leaning = 0;
+    for (uint64_t i = 0; i < 500; i++) {
+        SurfacePoint point = {.position = random_vector(i, 0.3f),
+                              .normal = up,
+                              .geometric_normal = up,
+                              .birth = i % 2 ? 1.0f : 0.0f,
+                              .footprint = 1e-6f};
+        m.pattern_depth = 0.0f;
+        PatternShade shade = {m.color, m.transmittance, up, 0.0f, 0.5f};
+        pattern_apply(&m, &point, &shade);
+        Vec3 own = i % 2 ? m.color2 : m.color;
+        assert_float_equal(shade.color.x / shade.color.z, own.x / own.z, 1e-3f);
+        assert_float_equal(shade.transmittance.x / m.transmittance.x, shade.color.x / m.color.x,
+                           1e-3f);
+        assert_float_equal(shade.transmittance.z / m.transmittance.z, shade.color.z / m.color.z,
+                           1e-3f);
+        assert_true(vec3_dot(shade.normal, up) == 1.0f);
+        m.pattern_scale = 0.0004f;
+        m.pattern_depth = 0.0002f;
+        shade = (PatternShade){m.color, m.transmittance, up, 0.0f, 0.5f};
+        pattern_apply(&m, &point, &shade);
+        leaning += vec3_dot(shade.normal, up) < 0.95f;
+        point.footprint = 0.01f;
+        shade = (PatternShade){m.color, m.transmittance, up, 0.0f, 0.5f};
+        pattern_apply(&m, &point, &shade);
+        assert_true(vec3_dot(shade.normal, up) == 1.0f);
+    }
+    assert_true(leaning > 100);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cells_on), cmocka_unit_test(test_cells_on_have_no_steps),
         cmocka_unit_test(test_stripes),  cmocka_unit_test(test_reef),
-        cmocka_unit_test(test_brain),
+        cmocka_unit_test(test_brain),    cmocka_unit_test(test_youth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

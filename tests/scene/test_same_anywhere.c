@@ -327,6 +327,9 @@ static const struct {
     {"coral: {attractors: 100, colonies: 2, position: @p(0 0 0), size: @l(0.6), levels: 0, "
      "polyps: {max_count: 200}}",
      MOVE | SCALE},
+    {"coral: {attractors: 100, position: @p(0 0 0), size: @l(0.6), taper: @l(0.1), levels: 0, "
+     "polyps: {max_count: 200, shape: nose, fill: 0.5, tentacles: 0.5}}",
+     MOVE | SCALE},
     {"coral: {form: table, attractors: 60, position: @p(0 0 0), size: @l(0.6), levels: 0, "
      "polyps: {max_count: 200}}",
      MOVE | SCALE},

@@ -438,6 +438,26 @@ static bool narrow_tips(OutTree *tree, Error *e)
     return done;
 }
 
+// Thickens every branch over `length` metres from its farthest tip, where it is as thin as its
+// axial corallite.
+static bool taper_branches(OutTree *tree, float length, Error *e)
+{
+    const float share = 0.42f;
+    float *way = memory_alloc_zero(tree->count, sizeof *way, e);
+    for (int64_t i = tree->count - 1; way && i >= 0; i--) {
+        float t = fminf(way[i] / length, 1.0f);
+        tree->radius[i] *= share + (1.0f - share) * t * (2.0f - t);
+        int32_t parent = tree->parent[i];
+        if (parent >= 0) {
+            float longer = way[i] + vec3_distance(tree->position[i], tree->position[parent]);
+            way[parent] = longer > way[parent] ? longer : way[parent];
+        }
+    }
+    bool done = way;
+    free(way);
+    return done;
+}
+
 bool coral_grow(const void *params, const Recipe *recipe, Grown *whole, Error *e)
 {
     CoralParams p = coral_params_resolve(params);
@@ -456,5 +476,5 @@ bool coral_finish(const void *params, const Recipe *recipe, const Grown *whole, 
     (void)recipe, (void)whole;
     CoralParams p = coral_params_resolve(params);
     out_tree_pipe_radii(grown->tree, p.exponent, p.tip_radius, 0.0f);
-    return narrow_tips(grown->tree, e);
+    return p.taper > 0.0f ? taper_branches(grown->tree, p.taper, e) : narrow_tips(grown->tree, e);
 }

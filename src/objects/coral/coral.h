@@ -23,13 +23,21 @@ typedef enum CoralRule {
     CORAL_MEAN    // plain space colonization, for comparison
 } CoralRule;
 
+typedef enum PolypShape {
+    POLYP_TUBE, // straight and round
+    POLYP_NOSE  // bent out of the tissue toward the tip, of unequal form
+} PolypShape;
+
 // Corallites: the cups that polyps sit in, as geometry.
 typedef struct PolypParams {
+    PolypShape shape;
     int64_t max_count; // 0 = none: shown by the material's pattern alone
     float diameter;    // m, of a cup's rim; 0 = 0.0044 of the colony's size
     float spacing;     // m, between the cups' centres; 0 = 1.6 diameters
     float height;      // m, of a cup's wall; 0 = 0.9 diameters
     float lean;        // degrees that cups lean toward the branch's tip
+    float fill;        // 0..1: how many of the gaps between them small cups fill
+    float tentacles;   // 0..1: share of the noses whose polyps are out
 } PolypParams;
 
 typedef struct CoralParams {
@@ -51,6 +59,7 @@ typedef struct CoralParams {
     float light;              // 0..1: how much denser attractors are above than below
     float tip_radius;         // m; 0 = the form's own share of the size
     float exponent;           // of the radii: 4 keeps branches nearly as thick as their tips
+    float taper;              // m from a tip over which a branch thickens; 0 = one step
     float fuse;               // m over which tips fuse with branches near them; 0 = they do not
     float bridge;             // m along branches between bridges to others; 0 = tips alone fuse
     float branchlet;          // m: height of a table's branchlets; 0 = 0.05 of the size

@@ -148,11 +148,15 @@ static CrustParams crust_params(const CoralParams *p, uint64_t seed)
 static bool add_colony(Mesh *mesh, const OutTree *tree, float variation, const CoralParams *p,
                        uint64_t seed, const Placing *placing, Error *e)
 {
-    PolypPlaces places = {.max_count = p->polyps.max_count,
+    PolypPlaces places = {.shape = p->polyps.shape,
+                          .max_count = p->polyps.max_count,
                           .spacing = p->polyps.spacing,
                           .diameter = p->polyps.diameter,
                           .height = p->polyps.height,
                           .lean = p->polyps.lean,
+                          .fill = p->polyps.fill,
+                          .tentacles = p->polyps.tentacles,
+                          .girth = tree ? 1.2f * p->tip_radius : 0.0f,
                           .floor = p->position.y,
                           .tree = tree,
                           .seed = random_key(seed, STREAM_CORAL_POLYPS)};

@@ -7,7 +7,13 @@ static const EnumName FORMS[] = {
     {"encrusting", CORAL_ENCRUSTING}, {"massive", CORAL_MASSIVE}, {0}};
 static const EnumName RULES[] = {{"string", CORAL_STRING}, {"mean", CORAL_MEAN}, {0}};
 
+static const EnumName POLYP_SHAPES[] = {{"tube", POLYP_TUBE}, {"nose", POLYP_NOSE}, {0}};
+
 static const Key POLYP_KEYS[] = {
+    {KEY_OF(PolypParams, shape, "shape", KEY_ENUM), .names = POLYP_SHAPES,
+     .doc = "tube: straight round cups; nose: as of staghorn corals: they swell out of the tissue "
+            "and bend along the branch, with a longer outer lip, no two alike, smaller toward the "
+            "tip, which ends in one straight cup."},
     {KEY_OF(PolypParams, max_count, "max_count", KEY_INT64), .high = 1e8,
      .doc = "Maximum number of cups modelled as geometry; 0 = none: only the material's pattern "
             "shows them."},
@@ -19,6 +25,10 @@ static const Key POLYP_KEYS[] = {
      .doc = "Height of a cup's wall; 0 = 0.9 diameters."},
     {KEY_OF(PolypParams, lean, "lean", KEY_FLOAT), .high = 85, .unit = "degrees",
      .doc = "Angle by which cups lean toward the branch's tip."},
+    {KEY_OF(PolypParams, fill, "fill", KEY_FLOAT), .high = 1,
+     .doc = "How many of the gaps between the cups smaller, younger ones fill; 0 = none."},
+    {KEY_OF(PolypParams, tentacles, "tentacles", KEY_FLOAT), .high = 1,
+     .doc = "Share of the polyps that are out, with twelve tentacles each; shape nose."},
     {0},
 };
 
@@ -77,6 +87,9 @@ static const Key CORAL_KEYS[] = {
     {KEY_OF(CoralParams, exponent, "exponent", KEY_FLOAT), .low = 1, .high = 10,
      .doc = "Exponent e of the radii, r_parent^e = sum of r_child^e; 4 keeps branches nearly as "
             "thin as their tips."},
+    {KEY_OF(CoralParams, taper, "taper", KEY_FLOAT), .high = 100, .unit = "m",
+     .doc = "Distance from a tip over which a branch thickens to its full radius; 0 = only its "
+            "last growth step is thinner."},
     {KEY_OF(CoralParams, fuse, "fuse", KEY_FLOAT), .high = 100, .unit = "m",
      .doc = "Distance over which the tips of branches fuse with other branches ahead of them "
             "(anastomosis), which makes the net of a sea fan and the lattice of a table's plate; "

@@ -72,13 +72,12 @@ static Vec3 vary(Vec3 color, float variation, float value, float hue)
     return vec3(color.x * v * (1.0f + 0.8f * h), color.y * v, color.z * v * (1.0f - 0.5f * h));
 }
 
-// Per channel: the mixture of both colours relative to the first.
-static Vec3 mixed_share(Vec3 color, Vec3 color2, float t)
+Vec3 pattern_color_ratio(Vec3 from, Vec3 to)
 {
-    Vec3 mixed = vec3_lerp(color, color2, t), least = vec3_splat(1e-3f);
-    mixed = vec3_max(mixed, least);
-    color = vec3_max(color, least);
-    return vec3(mixed.x / color.x, mixed.y / color.y, mixed.z / color.z);
+    const Vec3 least = {1e-3f, 1e-3f, 1e-3f};
+    from = vec3_max(from, least);
+    to = vec3_max(to, least);
+    return vec3(to.x / from.x, to.y / from.y, to.z / from.z);
 }
 
 static void noise_pattern(const Material *m, const SurfacePoint *point, PatternShade *shade)
@@ -90,8 +89,9 @@ static void noise_pattern(const Material *m, const SurfacePoint *point, PatternS
         noise_fractal(vec3_scale(p, 2.0f), 3, 2) * pattern_detail(0.25f * scale, point->footprint);
     float t = clampf(0.5f + 0.5f * large + 0.4f * small, 0.0f, 1.0f);
     if (m->kind == MATERIAL_LEAF) { // what reflects otherwise transmits otherwise
+        Vec3 mixed = vec3_lerp(shade->color, m->color2, t);
         shade->transmittance =
-            vec3_mul(shade->transmittance, mixed_share(shade->color, m->color2, t));
+            vec3_mul(shade->transmittance, pattern_color_ratio(shade->color, mixed));
     }
     shade->color = vec3_lerp(shade->color, m->color2, t);
     float depth = m->pattern_depth * pattern_detail(scale, point->footprint);

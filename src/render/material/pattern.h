@@ -98,6 +98,9 @@ typedef struct PatternOctaves {
 PatternOctaves pattern_octaves(const SurfacePoint *point, float wavelength, int octaves, float gain,
                                float squash, uint32_t seed);
 
+// Per channel, how much lighter `to` is than `from`: the factor on a leaf's transmittance.
+Vec3 pattern_color_ratio(Vec3 from, Vec3 to);
+
 // n tilted by the surface gradient of a height field (slope: world, dimensionless). Slopes are
 // bounded softly, so that bumps never turn a surface over.
 Vec3 pattern_tilt(Vec3 n, Vec3 slope);

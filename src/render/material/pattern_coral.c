@@ -11,11 +11,32 @@ static Vec3 tissue(const Material *m, Vec3 own, float birth)
     return vec3_lerp(own, m->color2, smoothstepf(0.15f, 1.0f, birth));
 }
 
+// The fine grain of the skin between cups, its spinules: a bump and a darker tone in its hollows.
+static void add_grain(const Material *m, const SurfacePoint *point, PatternShade *shade)
+{
+    float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 0.0004f;
+    float seen = pattern_detail(scale, point->footprint);
+    if (m->pattern_depth <= 0.0f || seen <= 0.0f) {
+        return;
+    }
+    Vec3 p = vec3_scale(point->position, 1.0f / scale), slope, finer;
+    float height = noise_solid(p, 51, &slope);
+    height += 0.4f * noise_solid(vec3_scale(p, 2.3f), 52, &finer);
+    slope = vec3_scale(vec3_madd(slope, 0.92f, finer), seen * m->pattern_depth / scale);
+    shade->normal = pattern_tilt(shade->normal, slope);
+    shade->color = vec3_scale(shade->color, 1.0f + 0.18f * seen * clampf(height, -1.0f, 1.0f));
+}
+
 void pattern_youth(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    Vec3 p = vec3_scale(point->position, 22.0f);
+    Vec3 p = vec3_scale(point->position, 22.0f), old = shade->color;
     float blotch = 1.0f + 0.16f * noise_solid(p, 31, NULL);
-    shade->color = vec3_scale(tissue(m, shade->color, point->birth), blotch);
+    shade->color = vec3_scale(tissue(m, old, point->birth), blotch);
+    if (m->kind == MATERIAL_LEAF) { // what reflects otherwise transmits otherwise
+        shade->transmittance =
+            vec3_mul(shade->transmittance, pattern_color_ratio(old, shade->color));
+    }
+    add_grain(m, point, shade);
 }
 
 // Height 0..1 and its slope as functions of the distance (in cells) from the border between two
