@@ -31,7 +31,8 @@
     X(snow_crystal) \
     X(frost_flower) \
     X(ice_cracks)   \
-    X(eruption)
+    X(eruption)     \
+    X(cascade)
 
 #define DECLARE_KIND(NAME) extern const Kind kind_##NAME;
 KINDS(DECLARE_KIND)

@@ -470,14 +470,14 @@ static bool check_clouds(const Mapping *mapping, const Scene *scene)
         if (sprays && !over) {
             snprintf(where, sizeof where, "clouds.%d", i);
             return load_fail(mapping->loader, given,
-                             "%s: spray needs the key 'over': the terrain with waterfalls, or the "
-                             "sea with a bed, that throws it up",
+                             "%s: spray needs the key 'over': the terrain with waterfalls, the "
+                             "cascade, or the sea with a bed, that throws it up",
                              where);
         }
         if (sprays && !kind->sprays) {
             return load_fail(mapping->loader, node_get(given, "over"),
                              "%s: object '%.60s' is of the kind %s; it must be a terrain with "
-                             "waterfalls or a sea with a bed",
+                             "waterfalls, a cascade or a sea with a bed",
                              where, over, kind_name(kind));
         }
         if (!sprays && over && !kind->heights) {

@@ -75,7 +75,8 @@ static const Key CLOUD_KEYS[] = {
      .doc = "Shelf cloud: how far tiers of low cloud overhang the land ahead of the storm, where "
             "the wind blows to, in shares of its size; 0 = none."},
     {KEY_OF(Cloud, over, "over", KEY_TEXT), .kinds = BIT(CLOUD_FOG) | BIT(CLOUD_SPRAY),
-     .doc = "Of spray, which needs it: name of a terrain whose waterfalls, or of a sea whose surf "
+     .doc = "Of spray, which needs it: name of a terrain whose waterfalls, of a cascade, or of a "
+            "sea whose surf "
             "throws it up at steep land or at the edges of platforms of its bed. Of fog: name of a "
             "terrain in whose "
             "hollows and valleys the fog lies, in high ones as in low "
@@ -86,7 +87,8 @@ static const Key CLOUD_KEYS[] = {
      .doc = "mist: drops that air carries off from the foot of a fall, from its strands or from "
             "surf; water: the falling water itself, clots of drops and air with tails that "
             "lengthen as they fall, in place of the strands of a terrain's waterfalls below their "
-            "lips. It is as much water as the river brings, in drops of 6 mm; extinction is that "
+            "lips, or the silk of a cascade. It is as much water as the river brings, in drops of "
+            "6 mm; extinction is that "
             "of mist as dense as at a foot, and falling water is many times as dense."},
     {KEY_OF(Cloud, pool, "pool", KEY_FLOAT), .kinds = BIT(CLOUD_FOG), .flags = KEY_ABOVE,
      .high = 20000, .unit = "m",

@@ -58,6 +58,7 @@ SMALL = {
     "snow_crystal": {"cells": 12}, "frost_flower": {"feathers": 5, "barbs": 6},
     "ice_cracks": {"size": 2, "grain": 0.03},
     "eruption": {"on": "cone", "bombs": 5},
+    "cascade": {"over": "wall", "strands": 8},
     "scatter": {"count": 12, "radius": 4, "variants": 2},
     "swarm": {"count": 12, "envelope": [{"shape": "sphere"}], "variants": 2},
 }
@@ -184,7 +185,7 @@ def draw_scene(schema, seed):
     scene["objects"] = []
     for i in range(draw.randint(1, 3)):
         kind = draw.choice(sorted(SMALL))
-        if kind == "climber" and not any(one["name"] == "wall" for one in scene["objects"]):
+        if kind in ("climber", "cascade") and not any(one["name"] == "wall" for one in scene["objects"]):
             scene["objects"].append({"name": "wall", "shape": {"envelope": [{"shape": "sphere", "size": 0.5}]}})
         if kind == "eruption" and not any(one["name"] == "cone" for one in scene["objects"]):
             scene["objects"].append({"name": "cone", "terrain": {"form": "volcano", "resolution": 32}})

@@ -92,11 +92,11 @@ static const Case scenes[] = {
     {"objects: [{name: a, scatter: {beyond: 1, things: [{stone: {}}]}}]\n",
      ":1:39: objects.a.scatter.beyond is 1; 'on' must name the terrain whose copies it is about"},
     {TREE "clouds: [{kind: spray, over: a}]\n", ":2:30: clouds.0.over: object 'a' is of the kind "
-                                                "tree; it must be a terrain with waterfalls or "
-                                                "a sea with a bed"},
-    {TREE "clouds: [{kind: spray}]\n",
-     ":2:10: clouds.0: spray needs the key 'over': the terrain with waterfalls, or the sea with a "
-     "bed, that throws it up"},
+                                                "tree; it must be a terrain with waterfalls, a "
+                                                "cascade or a sea with a bed"},
+    {TREE "clouds: [{kind: spray}]\n", ":2:10: clouds.0: spray needs the key 'over': the terrain "
+                                       "with waterfalls, the cascade, or the "
+                                       "sea with a bed, that throws it up"},
     {TREE "sky: {kind: constant, turbidity: 3}\n",
      ":2:23: key 'turbidity' does not apply to sky of kind 'constant'; known: kind, color, "
      "strength, visible, haze_distance"},

@@ -418,6 +418,9 @@ static const struct {
     {"eruption: {on: cone, bombs: 4, streams: [{at: [300, 0], length: 100}]}\n  - name: cone\n"
      "    terrain: {form: volcano, size: 9000, relief: 900, resolution: 64}",
      0}, // it lies on its terrain
+    {"cascade: {over: rock, from: [-0.2, 1.5, 0.2], to: [0.2, 1.5, 0.2]}\n  - name: rock\n"
+     "    shape: {envelope: [{shape: sphere}]}",
+     0}, // it runs over its rock
     {"swarm: {count: 20, envelope: [{shape: sphere}], things: [{stone: {resolution: 4}}]}",
      0}, // its envelope and headings lie in the scene
     {"row: {points: [{at: [0, 0, 0]}, {at: [3, 0, 1]}], things: [{stone: {resolution: 4}}]}",

@@ -68,6 +68,9 @@ static void every_kind_has_the_bits_that_were_recorded(void **state)
         {"eruption: {on: cone, bombs: 20, streams: [{at: [300, 0], length: 400}]}\n  - name: cone\n"
          "    terrain: {form: volcano, size: 9000, relief: 900, resolution: 64}",
          0xf2f9860a295d73b2},
+        {"cascade: {over: rock, from: [-0.2, 1.5, 0.2], to: [0.2, 1.5, 0.2]}\n  - name: rock\n"
+         "    shape: {envelope: [{shape: sphere}]}",
+         0x6305d9f2d52bfceb},
         {"swarm: {count: 40, envelope: [{shape: sphere}], spacing: 0.05, clumping: 0.5, swirl: 90, "
          "roll: 20, things: [{stone: {resolution: 4}}]}",
          0x95ba3767a300744a},
