@@ -218,7 +218,7 @@ fi
 
 fine oak oak 8
 fine oak-winter oak-winter 6
-fine ash ash 10
+still ash ash
 still figure-9 field-grid
 still twisted twisted
 still mesh-crown mesh-crown
