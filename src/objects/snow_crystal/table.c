@@ -56,7 +56,8 @@ static const Key CRYSTAL_KEYS[] = {
          "edges are worn."},
     {KEY_OF(SnowCrystalParams, rings, "rings", KEY_FLOAT), .high = 1,
      .doc =
-         "Height of the ridges and grooves that changes of the air leave along the outlines that "
+         "Height of the ridges and grooves of its upper face that changes of the air leave along "
+         "the outlines that "
          "a flat crystal had as it grew, relative to the thickness: 0.3 = as on most, 0 = none."},
     {KEY_OF(SnowCrystalParams, worn, "worn", KEY_FLOAT), .high = 1,
      .doc = "How far a flat crystal's edges, corners and gaps are rounded, as it sublimates: 0 = "
