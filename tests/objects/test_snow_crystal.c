@@ -243,7 +243,7 @@ static void the_surface_is_closed_and_has_its_size(void **state)
     params.gusts = 0.3f;
     Snowfake fake = grow(&params, 2, 1);
     Error e = {0};
-    Mesh *mesh = snow_crystal_mesh(&params, &fake, &e);
+    Mesh *mesh = snow_crystal_mesh(&params, &fake, 2, &e);
     assert_non_null(mesh);
     MeshTopology topology;
     assert_true(mesh_topology(mesh, &topology, &e));
@@ -264,8 +264,6 @@ static void the_surface_is_closed_and_has_its_size(void **state)
     snowfake_clear(&fake);
 }
 
-// ---- columns ----
-
 static double volume(const Mesh *mesh)
 {
     double six = 0.0;
@@ -278,6 +276,107 @@ static double volume(const Mesh *mesh)
     }
     return six / 6.0;
 }
+
+static Mesh *surface_of(const SnowCrystalParams *params, const Snowfake *fake)
+{
+    Error e = {0};
+    Mesh *mesh = snow_crystal_mesh(params, fake, 2, &e);
+    assert_non_null(mesh);
+    MeshTopology topology;
+    assert_true(mesh_topology(mesh, &topology, &e));
+    assert_int_equal(topology.open_edges + topology.overused_edges, 0);
+    return mesh;
+}
+
+// More points to a cell give the same crystal: nearly the same outline, area and thickness.
+static void detail_keeps_the_form(void **state)
+{
+    (void)state;
+    SnowCrystalParams params = weather(-15.0f, 0.11f, 60);
+    Snowfake fake = grow(&params, 2, 1);
+    Mesh *coarse = surface_of(&params, &fake);
+    Aabb box = mesh_bounds(coarse);
+    for (int detail = 2; detail <= 4; detail++) {
+        params.detail = detail;
+        Mesh *fine = surface_of(&params, &fake);
+        Aabb fine_box = mesh_bounds(fine);
+        print_message("detail %d: volume %.4f of the coarse one's\n", detail,
+                      volume(fine) / volume(coarse));
+        assert_true(fine->face_count > (detail * detail - 1) * coarse->face_count);
+        assert_true(fabs(volume(fine) / volume(coarse) - 1.0) < 0.05);
+        float cell = 0.5f * params.size / (float)params.cells;
+        assert_true(fabsf(fine_box.high.x - box.high.x) < cell);
+        assert_true(fabsf(fine_box.high.y / box.high.y - 1.0f) < 0.05f);
+        mesh_free(fine);
+    }
+    mesh_free(coarse);
+    snowfake_clear(&fake);
+}
+
+// Rings stand on the upper face alone, the more the higher, and leave the outline as it is.
+static void rings_stand_on_the_upper_face(void **state)
+{
+    (void)state;
+    SnowCrystalParams params = weather(-15.0f, 0.04f, 60); // a plate
+    params.detail = 2;
+    Snowfake fake = grow(&params, 2, 1);
+    Mesh *plain = surface_of(&params, &fake);
+    double last = 0.0;
+    for (int k = 1; k <= 2; k++) {
+        params.rings = 0.5f * (float)k;
+        Mesh *ringed = surface_of(&params, &fake);
+        assert_int_equal(ringed->vertex_count, plain->vertex_count);
+        double moved = 0.0;
+        for (int64_t i = 0; i < plain->vertex_count; i++) {
+            Vec3 a = plain->position[i], b = ringed->position[i];
+            assert_true(a.x == b.x && a.z == b.z);
+            assert_true(a.y > 0.0f ? b.y > 0.0f : a.y == b.y);
+            moved += fabs((double)(b.y - a.y)) / (double)params.thickness;
+        }
+        moved /= (double)plain->vertex_count;
+        print_message("rings %.1f: %.4f of the thickness\n", (double)params.rings, moved);
+        assert_true(moved > 1.9 * last && moved > 0.005);
+        last = moved;
+        mesh_free(ringed);
+    }
+    mesh_free(plain);
+    snowfake_clear(&fake);
+}
+
+// Share of the points that lie low, but not on the outline itself: the rounder an edge, the more.
+static double low_share(const Mesh *mesh, float thickness)
+{
+    double low = 0.0;
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        float height = fabsf(mesh->position[i].y);
+        low += height > 0.0f && height < 0.25f * thickness;
+    }
+    return low / (double)mesh->vertex_count;
+}
+
+static void worn_edges_are_round(void **state)
+{
+    (void)state;
+    SnowCrystalParams params = weather(-15.0f, 0.11f, 60);
+    params.detail = 2;
+    params.relief = 0.0f;
+    Snowfake fake = grow(&params, 2, 1);
+    double low = -1.0, ice = 1.0;
+    for (int k = 0; k <= 2; k++) {
+        params.worn = 0.5f * (float)k;
+        Mesh *mesh = surface_of(&params, &fake);
+        double now = low_share(mesh, params.thickness), left = volume(mesh);
+        print_message("worn %.1f: %.4f of the points lie low, %.3g mm3\n", (double)params.worn, now,
+                      1e9 * left);
+        assert_true(now > low && left < ice);
+        low = now;
+        ice = left;
+        mesh_free(mesh);
+    }
+    snowfake_clear(&fake);
+}
+
+// ---- columns ----
 
 // Closed, without handles, each vertex joined to one fan of faces, and of positive volume.
 static Mesh *column_of(const SnowCrystalParams *params, uint64_t seed)
@@ -495,6 +594,9 @@ int main(void)
         cmocka_unit_test(habits_are_those_of_the_diagram),
         cmocka_unit_test(threads_do_not_matter),
         cmocka_unit_test(the_surface_is_closed_and_has_its_size),
+        cmocka_unit_test(detail_keeps_the_form),
+        cmocka_unit_test(rings_stand_on_the_upper_face),
+        cmocka_unit_test(worn_edges_are_round),
         cmocka_unit_test(a_solid_column_is_a_prism),
         cmocka_unit_test(columns_are_hollow_in_much_vapour),
         cmocka_unit_test(faces_keep_the_angles_of_ice),

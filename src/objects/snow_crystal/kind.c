@@ -20,7 +20,7 @@ static bool own_space(OwnSpace *own, void *params, Error *e)
 static bool add_plate(const SnowCrystalParams *params, const Snowfake *fake, float height,
                       const Placing *placing, Error *e)
 {
-    Mesh *mesh = snow_crystal_mesh(params, fake, e);
+    Mesh *mesh = snow_crystal_mesh(params, fake, placing->recipe->seed, e);
     for (int64_t i = 0; mesh && i < mesh->vertex_count; i++) {
         mesh->position[i].y += height;
     }
@@ -97,8 +97,9 @@ static void needs(const void *given, Needs *needs)
         return; // a few hundred faces
     }
     double plates = until > 0.0f ? 2.0 : 1.0;
-    const double cell_bytes =
-        2.8 * 2.8 * 21.0 + plates * 4.0 * (4.0 + 6.0 * 24.0); // lattice, then mesh
+    double points = (double)params->detail * (double)params->detail;
+    double cell_bytes =
+        2.8 * 2.8 * 21.0 + plates * points * 4.0 * (4.0 + 6.0 * 24.0); // lattice, then mesh
     needs_add(needs, "cells", (double)params->cells * (double)params->cells, cell_bytes);
 }
 

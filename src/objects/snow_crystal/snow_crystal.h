@@ -19,7 +19,10 @@ typedef struct SnowCrystalParams {
     float size;      // m, from tip to tip of a plate, or the length of a column: the largest
     float thickness; // m, of a plate: mean, in the middle
     float relief;    // height of its ridges, 0 .. 1
+    float rings;     // height of the ridges along its former outlines, 0 .. 1
+    float worn;      // rounding of its edges, 0 .. 1
     int cells;       // of the lattice from the middle to a tip
+    int detail;      // points of the surface to a cell
     float noise;     // relative variation of the vapour
     float gusts;     // relative variation of the supersaturation in its life, the same for all arms
     SnowWeather weather;
@@ -69,7 +72,8 @@ bool snow_crystal_grow(const SnowCrystalParams *params, uint64_t seed, const Run
                        Snowfake *fake, Error *e);
 
 // Closed surface with normals, flat about the plane y = 0, a tip toward +X. The caller frees it.
-Mesh *snow_crystal_mesh(const SnowCrystalParams *params, const Snowfake *fake, Error *e);
+Mesh *snow_crystal_mesh(const SnowCrystalParams *params, const Snowfake *fake, uint64_t seed,
+                        Error *e);
 
 // Share of the hexagon about the crystal that it covers: 1 = a plate.
 double snowfake_fill(const Snowfake *fake);

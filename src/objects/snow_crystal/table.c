@@ -11,6 +11,7 @@ SnowCrystalParams snow_crystal_params_default(void)
                                .thickness = 4e-5f,
                                .relief = 0.6f,
                                .cells = 300,
+                               .detail = 1,
                                .gusts = 0.3f,
                                .weather = {.temperature = -15.0f, .supersaturation = 0.12f}};
 }
@@ -53,9 +54,20 @@ static const Key CRYSTAL_KEYS[] = {
      .doc =
          "How far ridges and ribs stand out, relative to the thickness; of columns, how far their "
          "edges are worn."},
+    {KEY_OF(SnowCrystalParams, rings, "rings", KEY_FLOAT), .high = 1,
+     .doc =
+         "Height of the ridges and grooves of its upper face that changes of the air leave along "
+         "the outlines that "
+         "a flat crystal had as it grew, relative to the thickness: 0.3 = as on most, 0 = none."},
+    {KEY_OF(SnowCrystalParams, worn, "worn", KEY_FLOAT), .high = 1,
+     .doc = "How far a flat crystal's edges, corners and gaps are rounded, as it sublimates: 0 = "
+            "just grown, 1 = by three cells."},
     {KEY_OF(SnowCrystalParams, cells, "cells", KEY_INT), .low = 10, .high = 1500,
      .doc = "Cells of the lattice from the middle to a tip: finer branches, and time by its third "
             "power."},
+    {KEY_OF(SnowCrystalParams, detail, "detail", KEY_INT), .low = 1, .high = 4,
+     .doc = "Points of a flat crystal's surface to a cell, a side: with 2 and more, and some "
+            "`rings` and `worn`, it is smooth in close-up."},
     {KEY_OF(SnowCrystalParams, noise, "noise", KEY_FLOAT), .high = 0.5,
      .doc = "Random variation of the vapour at the crystal, relative: 0 = six equal arms."},
     {KEY_OF(SnowCrystalParams, gusts, "gusts", KEY_FLOAT), .high = 1,
