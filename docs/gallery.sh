@@ -204,7 +204,7 @@ still venation venation
 # ---- vessels ----
 
 still figure-14 vessels-forks
-still vessels-organ vessels-organ
+fine vessels-organ vessels-organ 14
 still vessels-body vessels-body
 if is_wanted figure-15; then
     for share in 0.15 0.6 0.9 1; do
