@@ -14,7 +14,7 @@ enum { STREAM_ROUNDING = 0, STREAM_DRAWS = 1 };              // of a triangle; D
 #define AXIAL_SIZE 1.5f      // diameter of an axial cup, in those of the others
 #define AXIAL_RISE 0.7f      // of its foot above a branch's last node, in the branch's radii
 #define AXIAL_NOSE_SIZE 1.9f // likewise, of noses
-#define AXIAL_NOSE_RISE -0.4f
+#define AXIAL_NOSE_RISE (-0.4f)
 
 enum { TRIES = 6 };
 
