@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WIDENING 0.25f // radius over way of a turbulent puff
+#define WIDENING 0.25f  // radius over way of a turbulent puff
+#define DROP 0.006f     // m: mean diameter of drops of falls
+#define EXTINCTION 0.2f // 1/m: of the densest spray (render/cloud/cloud.c)
 
 // An ellipsoid of revolution reaches along an axis as far as its half axes' parts along it
 // together.
@@ -53,6 +55,11 @@ float spray_puff_way(float radius, float speed, float seconds)
 float spray_puff_radius(float radius, float way)
 {
     return radius + WIDENING * way;
+}
+
+float spray_of_water(void)
+{
+    return 3.0f / (DROP * EXTINCTION); // each drop takes twice its cross-section out of light
 }
 
 void spray_free(SprayParcels *spray)

@@ -40,6 +40,9 @@ float spray_puff_way(float radius, float speed, float seconds);
 // The radius, m, of a puff after a way.
 float spray_puff_radius(float radius, float way);
 
+// m^3 of the densest spray that hide as much as a m^3 of water in drops of falls.
+float spray_of_water(void);
+
 void spray_free(SprayParcels *spray); // with its parcels; NULL is fine
 
 #endif

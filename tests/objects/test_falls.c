@@ -680,7 +680,7 @@ static void white_water_is_what_the_river_brings(void **state)
     }
     double seconds = sqrt(2.0 * 12.0 / 9.81) * (1.0 - sqrt(0.1));
     double wanted = (double)v.terrain.flow[lip].discharge * seconds;
-    double found = contents / (double)white_water_content();
+    double found = contents / (double)spray_of_water();
     assert_true(found > 0.9 * wanted && found < 1.2 * wanted); // rock slows some of it down
     assert_true(heights / contents > 3.0 && heights / contents < 8.0);
     const Mesh *mesh = geometry.part[0].mesh;

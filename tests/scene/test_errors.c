@@ -97,6 +97,9 @@ static const Case scenes[] = {
     {TREE "clouds: [{kind: spray}]\n", ":2:10: clouds.0: spray needs the key 'over': the terrain "
                                        "with waterfalls, the cascade, or the "
                                        "sea with a bed, that throws it up"},
+    {"objects: [{name: a, cascade: {over: b, from: [1, 2, 3], to: [1, 0, 3]}}]\n",
+     ":1:61: objects.a.cascade.to is where 'from' is, seen from above; they must lie apart, for "
+     "the water leaves their line at a right angle"},
     {TREE "sky: {kind: constant, turbidity: 3}\n",
      ":2:23: key 'turbidity' does not apply to sky of kind 'constant'; known: kind, color, "
      "strength, visible, haze_distance"},

@@ -53,6 +53,16 @@ static void cascade_defaults(void *out)
     *(CascadeParams *)out = cascade_params_default();
 }
 
+static bool check_cascade(const Mapping *mapping, void *params)
+{
+    const CascadeParams *cascade = params;
+    Vec3 line = vec3_sub(cascade->to, cascade->from);
+    return line.x != 0.0f || line.z != 0.0f ||
+           mapping_fail(mapping, "to",
+                        " is where 'from' is, seen from above; they must lie apart, for the water "
+                        "leaves their line at a right angle");
+}
+
 const Table cascade_table = {
     .name = "cascade",
     .doc = "A small fall of water over the rock of another object, as an exposure of half a second "
@@ -69,4 +79,5 @@ const Table cascade_table = {
                "    cascade: {over: rock, from: [-0.4, 0.5, 0.2], to: [0.4, 0.5, 0.2]}\n",
     .size = sizeof(CascadeParams),
     .keys = CASCADE_KEYS,
-    .defaults = cascade_defaults};
+    .defaults = cascade_defaults,
+    .check = check_cascade};

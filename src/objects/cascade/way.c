@@ -9,7 +9,7 @@
 
 #define GRAVITY 9.81f
 
-enum { NUMBER_SIDE, NUMBER_HEIGHT, NUMBER_SPEED, NUMBER_TURN, NUMBER_WAY, NUMBERS };
+enum { NUMBER_SIDE, NUMBER_HEIGHT, NUMBER_SPEED, NUMBER_WAY = 4, NUMBERS };
 enum { STREAM_GATHER = 1, STREAM_ROUGH, STREAM_EDDIES, STREAM_STRANDS };
 
 static const float STEP = 0.004f;              // s, on rock and in the air
@@ -29,7 +29,6 @@ typedef struct Way {
     uint64_t seed, key; // of the cascade, of the strand
     Vec3 heading;
     float film; // m
-    float turn; // m/s: what turbulence moves it aside with
     Vec3 p, v;
     float white;
     bool on_rock, afloat;

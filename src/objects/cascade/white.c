@@ -2,7 +2,6 @@
 // the water is slow, and the mist that it throws up where it meets rock or pool.
 #include "base/random.h"
 #include "objects/cascade/cascade.h"
-#include "objects/terrain/white_water.h"
 
 #include <math.h>
 
@@ -34,7 +33,7 @@ static float shown(const CascadePlace *place, float since)
 static bool add_trail(const CascadeParams *params, uint64_t seed, int strand,
                       const CascadePlace *place, int count, SprayParcels *white, Error *e)
 {
-    float flux = flux_of(params, seed, strand) * white_water_content(), held = 0.0f, way = 0.0f;
+    float flux = flux_of(params, seed, strand) * spray_of_water(), held = 0.0f, way = 0.0f;
     float since = 0.0f; // s afloat
     uint64_t key = random_key(random_key(seed, STREAM_DEPTH), (uint64_t)strand);
     int first = 0;

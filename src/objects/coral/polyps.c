@@ -211,13 +211,14 @@ static double area_of(const Mesh *mesh)
     return sum;
 }
 
-static bool add_form(const Spread *s, const PolypPlaces *places, int form, const Placing *placing,
-                     int role, Error *e)
+// form_of: of each cup.
+static bool add_form(const Spread *s, const int32_t *form_of, const PolypPlaces *places, int form,
+                     const Placing *placing, int role, Error *e)
 {
     Part part = {0};
     int64_t count = 0;
     for (int64_t i = 0; i < s->count; i++) {
-        count += polyp_form(&s->place[i], places, random_key(places->seed, (uint64_t)i)) == form;
+        count += form_of[i] == form;
     }
     if (count == 0) {
         return true;
@@ -234,12 +235,28 @@ static bool add_form(const Spread *s, const PolypPlaces *places, int form, const
             free(part.instance);
             return false;
         }
-        uint64_t key = random_key(places->seed, (uint64_t)i);
-        if (polyp_form(&s->place[i], places, key) == form) {
+        if (form_of[i] == form) {
+            uint64_t key = random_key(places->seed, (uint64_t)i);
             part.instance[part.instance_count++] = polyp_frame(&s->place[i], places, key);
         }
     }
     return placing_add(placing, part, role, e);
+}
+
+static bool add_forms(const Spread *s, const PolypPlaces *places, const Placing *placing, int role,
+                      Error *e)
+{
+    int32_t *form_of = memory_alloc(s->count, sizeof *form_of, e);
+    for (int64_t i = 0; form_of && i < s->count; i++) {
+        uint64_t key = random_key(places->seed, (uint64_t)i);
+        form_of[i] = polyp_form(&s->place[i], places, key);
+    }
+    bool done = form_of;
+    for (int form = 0; done && form < polyp_form_count(places); form++) {
+        done = add_form(s, form_of, places, form, placing, role, e);
+    }
+    free(form_of);
+    return done;
 }
 
 bool polyps_add(const Mesh *skin, const PolypPlaces *places, const Placing *placing, int role,
@@ -261,10 +278,8 @@ bool polyps_add(const Mesh *skin, const PolypPlaces *places, const Placing *plac
     if (done) {
         memset(s.bucket, -1, (size_t)s.buckets * sizeof *s.bucket);
         done = (!places->tree || put_axial(&s, places, placing->recipe->run, e)) &&
-               spread_over(&s, skin, places, placing->recipe->run, e);
-    }
-    for (int form = 0; done && form < polyp_form_count(places); form++) {
-        done = add_form(&s, places, form, placing, role, e);
+               spread_over(&s, skin, places, placing->recipe->run, e) &&
+               add_forms(&s, places, placing, role, e);
     }
     free(s.bucket);
     free(s.next);

@@ -14,8 +14,8 @@ enum { STREAM_RINGS = 3 };                                                      
 #define AGEING 2.0f      // thickness that the oldest ice gains, in that of new ice
 #define THINNING 0.45f   // of the tips, against the middle
 #define RING_WAVES 24.0f // slowest swings of the weather in a life
-#define RING_HEIGHT \
-    0.5f // of rings 1 where a swing is strongest, relative to the half thickness: less than 1
+// Of rings 1 where a swing is strongest, relative to the half thickness: less than 1.
+#define RING_HEIGHT 0.5f
 
 void sheet_clear(Sheet *sheet)
 {

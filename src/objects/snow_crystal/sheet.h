@@ -5,9 +5,8 @@
 
 #include "objects/snow_crystal/snow_crystal.h"
 
-#define SHEET_CONTOUR \
-    0.42f // of the smoothed cells: less than half, so that branches of one cell
-          // hold
+// Of the smoothed cells: less than half, so that branches of one cell hold.
+#define SHEET_CONTOUR 0.42f
 
 // Point (q, r) of the lattice, -radius .. radius each, is element sheet_at. There is a margin
 // without ice.

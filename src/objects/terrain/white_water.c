@@ -19,8 +19,6 @@ enum {
 enum { NUMBER_AGE, NUMBER_SIZE, NUMBER_LONG, NUMBER_ASIDE, NUMBER_OFF, NUMBERS };
 enum { NUMBER_THREAD_ASIDE, NUMBER_THREAD_OFF, NUMBER_THREAD_BEHIND, NUMBER_THREAD_SIZE };
 
-static const float DROP = 0.006f;            // m: mean diameter of drops
-static const float EXTINCTION = 0.2f;        // 1/m: of the densest spray (render/cloud/cloud.c)
 static const float GATHERED = 0.5f;          // share of a clot's water in its head and tail
 static const float CLOT[2] = {0.07f, 0.26f}; // m: radius of a head at the lip and at the foot
 static const float THREAD = 0.09f;           // m: radius
@@ -45,11 +43,6 @@ static float even(uint64_t key, int number) // -1..1
 float white_water_share(float share)
 {
     return smoothstepf(0.01f, 0.2f, share);
-}
-
-float white_water_content(void)
-{
-    return 3.0f / (DROP * EXTINCTION); // each drop takes twice its cross-section out of light
 }
 
 // What comes over the lip varies: gusts of metres and of decimetres, which part as they fall. Those
@@ -158,7 +151,7 @@ void white_water_settle(const WhiteWater *fall, SprayParcels *water)
         return;
     }
     double volume = (double)fall->discharge * fall->falling / fall->strands; // m^3
-    float factor = (float)(volume / fall->weights) * white_water_content();
+    float factor = (float)(volume / fall->weights) * spray_of_water();
     for (int64_t i = 0; i < water->count; i++) {
         water->parcel[i].content *= factor;
     }

@@ -37,7 +37,4 @@ bool white_water_strand(WhiteWater *fall, const WhiteStrand *strand, SprayParcel
 // Turns weights into contents, when all strands are added: of as much water as falls.
 void white_water_settle(const WhiteWater *fall, SprayParcels *water);
 
-// m^3 of the densest spray that hide as much as a m^3 of water in drops of falls.
-float white_water_content(void);
-
 #endif
