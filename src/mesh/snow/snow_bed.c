@@ -242,8 +242,9 @@ static void set_surface(SnowBed *bed, const SnowParams *params, const SnowReach 
     float far = 0.5f * params->bridging / bed->cell + 4.0f;
     for (int i = 0; i < bed->across * bed->along; i++) {
         int x = i % bed->across, z = i / bed->across;
-        bool none = bed->highest[i] == -INFINITY; // all around
-        Slope slope = none ? (Slope){.none = true} : fit(bed, top, x, z, far);
+        Slope slope = {.none = bed->highest[i] == -INFINITY}; // all around
+        if (!slope.none)
+            slope = fit(bed, top, x, z, far);
         float level = 1.0f / sqrtf(1.0f + slope.x * slope.x + slope.z * slope.z);
         Vec3 p = vec3(bed->low_x + (float)x * bed->cell, slope.height,
                       bed->low_z + (float)z * bed->cell);

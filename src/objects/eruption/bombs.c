@@ -14,7 +14,7 @@ typedef struct Bomb {
     float radius, kelvin, time;
 } Bomb;
 
-static Bomb throw(const EruptionParams *p, const HeightField *land, uint64_t key)
+static Bomb throw_bomb(const EruptionParams *p, const HeightField *land, uint64_t key)
 {
     float sine, cosine, out_sine, out_cosine;
     exact_sincos(random_range(random_key(key, 0), 0.0f, 2.0f * PI_F), &sine, &cosine);
@@ -88,7 +88,7 @@ static bool fly(Trails *t, const EruptionParams *p, const HeightField *land, uin
 {
     const float dt = 0.25f;
     enum { MOST = 400 };
-    Bomb b = throw(p, land, random_key(key, 0));
+    Bomb b = throw_bomb(p, land, random_key(key, 0));
     float flight = 2.0f * b.velocity.y / GRAVITY;
     float opens = random_range(random_key(key, 1), -p->shutter, flight);
     if (!trails_begin(t, e)) {
