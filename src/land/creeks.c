@@ -103,7 +103,8 @@ static void smooth(CreekTree *t)
     enum { TIMES = 5 };
     int64_t count = plain_count(t->plain);
     for (int64_t i = 0; i < count; i++) {
-        t->at[i] = (Vec2){(float)(i % t->plain->columns), (float)(i / t->plain->columns)};
+        int64_t row = i / t->plain->columns;
+        t->at[i] = (Vec2){(float)(i % t->plain->columns), (float)row};
     }
     for (int n = 0; n < TIMES; n++) {
         memcpy(t->old, t->at, (size_t)count * sizeof *t->at);

@@ -10,8 +10,8 @@
 static void catch_light(Plant *plant, const SeasonLight *light, const LightParams *params,
                         int season, int threads)
 {
-    threads = plant->living_count < 4000 ? 1 : threads; // a team would cost more than it saves
-#pragma omp parallel for num_threads(threads) schedule(static)
+    bool many = plant->living_count >= 4000; // for fewer a team would cost more than it saves
+#pragma omp parallel for num_threads(threads) schedule(static) if (many)
     for (int64_t i = 0; i < plant->living_count; i++) {
         Metamer *m = &plant->metamer[plant->living[i]];
         bool leaves = metamer_has_leaves(m, season, params->leaf_seasons);

@@ -79,7 +79,7 @@ static Shrubs shrubs_at(const SurfacePoint *point, float size, float share, uint
     float cover = stands ? smoothstepf(-0.5f * soft, 0.03f + 0.5f * soft, inside) : 0.0f;
     s.cover = lerpf(s.cover, cover, seen);
     s.tone = seen * (2.0f * noise_unit(cell.cell, 3) - 1.0f);
-    float rise = seen * cover * 1.6f * away / fmaxf(radius, 0.05f);
+    float rise = seen * cover * 0.7f * away / fmaxf(radius, 0.05f);
     s.slope = away > 1e-4f ? vec3(rise * x / away, 0.0f, rise * z / away) : s.slope;
     return s;
 }
@@ -281,7 +281,7 @@ static Ground scrub(Ground ground, const Material *m, const SurfacePoint *point,
     float row = old * where * smoothstepf(0.15f, 0.75f, l->scroll + 0.4f * l->line);
     float single = 0.05f * smoothstepf(-0.1f, 0.6f, l->patch);
     Shrubs tall = shrubs_at(point, 6.5f, fminf(row + single, 1.0f), SEED_SHRUB + 4);
-    return add_shrubs(ground, &tall, vec3_mul(m->color2, vec3(0.56f, 0.62f, 0.66f)));
+    return add_shrubs(ground, &tall, vec3_mul(m->color2, vec3(0.78f, 0.82f, 0.80f)));
 }
 
 // Reeds and sedges in zones from the last water outward.

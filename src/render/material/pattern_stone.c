@@ -126,10 +126,29 @@ float pattern_stone_height(const Material *m, const SurfacePoint *point)
     return m->lichen > 0.0f ? height + lichen_at(m->lichen, point).height : height;
 }
 
+// Tone of the surface, mean about 1: streaks in which pressure has gathered dark mica, weathered
+// spots of all sizes, and on the closest view grains of dark mica, grey quartz and pale feldspar.
+static float grain_tone(const SurfacePoint *point)
+{
+    const float grain = 0.0036f, streak = 0.16f; // m
+    PatternOctaves spots = pattern_octaves(point, streak, 8, 0.84f, 1.7f, SEED_GRAIN + 12);
+    float tone = 1.0f + 0.19f * clampf(spots.value, -2.0f, 2.0f);
+    float seen = pattern_detail(grain, point->footprint);
+    if (seen <= 0.0f) {
+        return tone;
+    }
+    Vec3 p = point->object_position;
+    CellPoint cell =
+        noise_cells(vec3(p.x / grain, 1.7f * p.y / grain, p.z / grain), SEED_GRAIN + 3);
+    float kind = noise_unit(cell.cell, 21) + 0.06f * spots.value, own = noise_unit(cell.cell, 22);
+    float mineral = kind < 0.12f ? 0.45f + 0.35f * own : kind < 0.6f ? 0.86f + 0.16f * own : 1.15f;
+    return tone * lerpf(1.0f, mineral, seen);
+}
+
 static Vec3 minerals(const Material *m, const SurfacePoint *point, Vec3 color, float joint)
 {
     Vec3 p = point->object_position;
-    const float grain = 0.006f, patch = 0.05f; // m
+    const float patch = 0.05f; // m
     float scale = scale_of(m);
     float stain = noise_fractal(vec3(p.x / scale, 0.35f * p.y / scale, p.z / scale), 4, SEED_STAIN);
     float weathered = smoothstepf(-0.3f, 0.4f, stain) * 0.85f + 0.6f * joint;
@@ -137,14 +156,7 @@ static Vec3 minerals(const Material *m, const SurfacePoint *point, Vec3 color, f
     float patches = pattern_detail(0.5f * patch, point->footprint);
     patches *= noise_fractal(vec3_scale(p, 1.0f / patch), 3, SEED_GRAIN + 8);
     color = vec3_scale(color, 1.0f + 0.3f * patches);
-    float seen = pattern_detail(grain, point->footprint);
-    if (seen > 0.0f) {
-        CellPoint cell = noise_cells(vec3_scale(p, 1.0f / grain), SEED_GRAIN + 3);
-        float kind = noise_unit(cell.cell, 21); // dark mica, grey quartz, pale feldspar
-        float tone = kind < 0.14f ? 0.35f : kind < 0.6f ? 0.92f : 1.2f;
-        color = vec3_scale(color, lerpf(1.0f, tone, seen));
-    }
-    return color;
+    return vec3_scale(color, grain_tone(point));
 }
 
 void pattern_stone(const Material *m, const SurfacePoint *point, PatternShade *shade)
