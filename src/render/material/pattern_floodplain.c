@@ -233,10 +233,10 @@ static Ground pioneers(Ground ground, const Material *m, const SurfacePoint *poi
     Vec3 weeds = vec3_mul(m->color2, vec3(1.30f, 1.12f, 1.15f));
     ground.color = vec3_lerp(ground.color, weeds, 0.85f * green);
     Shrubs low = shrubs_at(point, 2.6f, 0.9f * brush, SEED_SHRUB);
-    ground = add_shrubs(ground, &low, vec3_mul(m->color2, vec3(0.92f, 0.92f, 1.0f)));
+    ground = add_shrubs(ground, &low, vec3_mul(m->color2, vec3(1.25f, 1.25f, 1.2f)));
     Shrubs high =
         shrubs_at(point, 5.5f, brush * smoothstepf(-0.3f, 0.6f, l->scroll), SEED_SHRUB + 2);
-    return add_shrubs(ground, &high, vec3_mul(m->color2, vec3(0.66f, 0.70f, 0.78f)));
+    return add_shrubs(ground, &high, vec3_mul(m->color2, vec3(1.1f, 1.1f, 1.05f)));
 }
 
 // Dry on ridges, lush in swales and where it was mown late; tussocks, and paths of cattle.
@@ -281,7 +281,7 @@ static Ground scrub(Ground ground, const Material *m, const SurfacePoint *point,
     float row = old * where * smoothstepf(0.15f, 0.75f, l->scroll + 0.4f * l->line);
     float single = 0.05f * smoothstepf(-0.1f, 0.6f, l->patch);
     Shrubs tall = shrubs_at(point, 6.5f, fminf(row + single, 1.0f), SEED_SHRUB + 4);
-    return add_shrubs(ground, &tall, vec3_mul(m->color2, vec3(0.78f, 0.82f, 0.80f)));
+    return add_shrubs(ground, &tall, vec3_mul(m->color2, vec3(1.15f, 1.15f, 1.05f)));
 }
 
 // Reeds and sedges in zones from the last water outward.
