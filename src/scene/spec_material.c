@@ -147,6 +147,10 @@ static const Key MATERIAL_KEYS[] = {
      .high = 1,
      .doc = "Reflectance of a leaf just out of its bud (leaves.flush, leaves.emergence), reddish "
             "of many plants; its transmittance follows. Black = paler than the full-grown leaf."},
+    {KEY_OF(Material, faded_color, "faded_color", KEY_COLOR), .kinds = BIT(MATERIAL_LEAF),
+     .high = 1,
+     .doc = "Reflectance of a leaf's tissue that has lost its green (venation.autumn and spots), "
+            "yellow of most plants; its transmittance follows. Black = a yellow of its own green."},
     {KEY_OF(Material, absorption, "absorption", KEY_COLOR), .kinds = CLEAR, .high = 1e6,
      .unit = "1/m", .doc = "Absorption coefficient of the interior (Beer-Lambert law)."},
     {KEY_OF(Material, scattering, "scattering", KEY_COLOR), .kinds = CLEAR, .high = 1e6,

@@ -2,9 +2,11 @@
 #include "making.h"
 #include "testing.h"
 
+#include "objects/venation/blade_grid.h"
 #include "objects/venation/blade_wave.h"
 #include "objects/venation/margin_hairs.h"
 #include "objects/venation/vein_curves.h"
+#include "objects/venation/vein_hairs.h"
 #include "objects/venation/venation.h"
 
 #include <math.h>
@@ -529,6 +531,117 @@ static void hairs_bend_with_the_blade(void **state)
     out_tree_free(tree);
 }
 
+// Mean of a picture of the blade at the nodes of veins from `low` to `high` shares of the midrib.
+static double mean_at_veins(const WornLeaf *leaf, const float *pixel, float low, float high)
+{
+    const LeafOutline *outline = &leaf->params.outline;
+    double sum = 0.0, count = 0.0;
+    for (int64_t i = 0; i < leaf->tree->count; i++) {
+        Vec3 p = leaf->tree->position[i];
+        float share = leaf->tree->radius[i] / leaf->params.midrib;
+        if (p.y < 0.2f * outline->length || p.y > 0.8f * outline->length || share < low ||
+            share > high) {
+            continue;
+        }
+        BladeRow row = blade_row(outline, p.y);
+        float width = (float)leaf->relief.width, height = (float)leaf->relief.height;
+        int c = (int)fminf(blade_row_column(&row, p.x) * width, width - 1.0f);
+        int r = (int)((1.0f - p.y / outline->length) * height);
+        sum += (double)pixel[r * leaf->relief.width + c];
+        count += 1.0;
+    }
+    assert_true(count > 5.0);
+    return sum / count;
+}
+
+// Thick veins keep their green, the margin dies, and no leaf of later autumn is greener anywhere.
+static void autumn_goes_last_along_thick_veins(void **state)
+{
+    (void)state;
+    const float autumn[4] = {0.2f, 0.5f, 0.7f, 1.0f};
+    float *before = NULL;
+    for (int k = 0; k < 4; k++) {
+        VenationParams params = small_params();
+        params.secondaries = 6, params.vein = 0.00002f, params.autumn = autumn[k];
+        WornLeaf leaf;
+        worn_leaf_init(&leaf, params);
+        const float *withered = leaf.relief.withered;
+        int width = leaf.relief.width, size = width * leaf.relief.height;
+        double mean = 0.0, edge = 0.0;
+        for (int i = 0; i < size; i++) {
+            assert_true(withered[i] >= 0.0f && withered[i] <= 1.0f);
+            assert_true(!before || withered[i] >= before[i] - 1e-6f);
+            mean += (double)withered[i] / size;
+            edge += i % width == 0 ? (double)withered[i] / leaf.relief.height : 0.0;
+        }
+        double thick = mean_at_veins(&leaf, withered, 0.35f, 1.0f);
+        double thin = mean_at_veins(&leaf, withered, 0.0f, 0.1f);
+        if (autumn[k] == 0.5f) {
+            assert_true(thick < 0.35 * thin && thin > 0.5 * (double)MESH_YELLOW);
+            assert_true(edge > 1.1 * mean);
+        }
+        if (autumn[k] == 1.0f) {
+            assert_true(thick > 0.9 * (double)MESH_YELLOW && edge > 0.9);
+        }
+        free(before);
+        before = leaf.relief.withered;
+        leaf.relief.withered = NULL;
+        worn_leaf_clear(&leaf);
+    }
+    free(before);
+}
+
+static float distance_to_piece(const OutTree *tree, int64_t node, Vec3 p)
+{
+    Vec3 a = tree->position[tree->parent[node]], way = vec3_sub(tree->position[node], a);
+    float length2 = vec3_dot(way, way);
+    float t = length2 > 0.0f ? vec3_dot(vec3_sub(p, a), way) / length2 : 0.0f;
+    return vec3_distance(p, vec3_madd(a, clampf(t, 0.0f, 1.0f), way));
+}
+
+// Hairs stand on the veins that stand out, about as many as their length asks for, on the front.
+static void hairs_stand_on_thick_veins(void **state)
+{
+    (void)state;
+    VenationParams params = small_params();
+    params.secondaries = 6, params.vein = 0.00002f, params.embedded = 0.0002f;
+    params.wear = 1.0f;
+    params.vein_hairs = 0.0006f;
+    WornLeaf leaf;
+    worn_leaf_init(&leaf, params);
+    const OutTree *tree = leaf.tree;
+    Transform place = transform_identity();
+    Error e = {0};
+    CurveSet *hairs = vein_hairs(tree, &leaf.params, &leaf.relief, &place, &e);
+    assert_non_null(hairs);
+    assert_int_equal(hairs->first[hairs->curve_count], hairs->point_count);
+    double way = 0.0;
+    for (int64_t i = 0; i < tree->count; i++) {
+        bool bears = tree->position[i].y > 0.0f && tree->radius[i] >= leaf.params.embedded &&
+                     blade_wear_depth(&leaf.relief.wear, tree->position[i]) == 0.0f;
+        way +=
+            bears ? (double)vec3_distance(tree->position[i], tree->position[tree->parent[i]]) : 0.0;
+    }
+    double expected = way / (0.12 * 0.0006), n = (double)hairs->curve_count;
+    assert_true(expected > 500.0 && n > 0.95 * expected && n < 1.05 * expected);
+    int64_t front = 0;
+    for (int64_t i = 0; i < hairs->curve_count; i++) {
+        Vec3 a = hairs->position[hairs->first[i]], b = hairs->position[hairs->first[i + 1] - 1];
+        float nearest = 1.0f;
+        for (int64_t k = 0; k < tree->count; k++) {
+            bool bears = tree->parent[k] >= 0 && tree->radius[k] >= leaf.params.embedded;
+            nearest = bears ? fminf(nearest, distance_to_piece(tree, k, a)) : nearest;
+        }
+        assert_true(nearest < leaf.params.midrib);
+        float reach = vec3_distance(a, b);
+        assert_true(reach > 0.25f * params.vein_hairs && reach < 2.0f * params.vein_hairs);
+        front += b.z > a.z;
+    }
+    assert_true(front > hairs->curve_count * 3 / 4);
+    curves_free(hairs);
+    worn_leaf_clear(&leaf);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -545,6 +658,8 @@ int main(void)
         cmocka_unit_test(waves_rise_from_the_midrib_to_the_margin),
         cmocka_unit_test(hairs_fringe_the_margin),
         cmocka_unit_test(hairs_bend_with_the_blade),
+        cmocka_unit_test(autumn_goes_last_along_thick_veins),
+        cmocka_unit_test(hairs_stand_on_thick_veins),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -125,6 +125,24 @@ static void a_leaf_withers_from_green_over_yellow_and_brown_to_straw(void **stat
     }
 }
 
+// A material may say what is left without green; tissue that dies turns brown all the same.
+static void a_leaf_may_fade_to_a_colour_of_its_own(void **state)
+{
+    (void)state;
+    Material m = leaf();
+    PatternShade plain = withered_at(&m, 1.0f);
+    m.faded_color = vec3(0.5f, 0.3f, 0.04f);
+    PatternShade green = withered_at(&m, 0.0f), yellow = withered_at(&m, 0.45f);
+    assert_memory_equal(&green.color, &m.color, sizeof m.color);
+    assert_float_equal(yellow.color.x, 0.5f, 1e-6f);
+    assert_float_equal(yellow.color.y, 0.3f, 1e-6f);
+    assert_float_equal(yellow.transmittance.x, 0.425f, 1e-6f);
+    assert_float_equal(yellow.transmittance.z, 0.034f, 1e-6f);
+    PatternShade half = withered_at(&m, 0.2f), straw = withered_at(&m, 1.0f);
+    assert_true(half.color.x > green.color.x && half.color.x < yellow.color.x);
+    assert_float_equal(straw.color.x, plain.color.x, 1e-6f);
+}
+
 // Bark and others have no season.
 static void only_leaves_have_a_season(void **state)
 {
@@ -142,6 +160,7 @@ int main(void)
         cmocka_unit_test(young_leaves_are_paler_and_let_more_light_through),
         cmocka_unit_test(young_leaves_may_have_a_colour_of_their_own),
         cmocka_unit_test(a_leaf_withers_from_green_over_yellow_and_brown_to_straw),
+        cmocka_unit_test(a_leaf_may_fade_to_a_colour_of_its_own),
         cmocka_unit_test(only_leaves_have_a_season),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,16 +1,15 @@
 #include "objects/venation/margin_hairs.h"
 
 #include "base/random.h"
-#include "objects/venation/vein_curves.h"
+#include "objects/venation/hair.h"
 
-enum { STREAM_HAIRS = 5 };                                               // of the outline's key
-enum { STREAM_PLACE, STREAM_LENGTH, STREAM_LEAN, STREAM_BEND_DRAW = 3 }; // of a hair
+enum { STREAM_HAIRS = 5 };                  // of the outline's key
+enum { STREAM_PLACE = 0, STREAM_LEAN = 2 }; // of a hair; others are hair.c's
 
-enum { POINTS = 4, MOST_HAIRS = 20000 }; // of a hair; on a side
+enum { MOST_HAIRS = 20000 }; // on a side
 
-#define SPACING 0.4f     // along the midrib from hair to hair, in their lengths
-#define THICKNESS 0.014f // radius at the base, in lengths
-#define FIRST 0.03f      // shares of the blade's length between which they stand
+#define SPACING 0.4f // along the midrib from hair to hair, in their lengths
+#define FIRST 0.03f  // shares of the blade's length between which they stand
 #define LAST 0.985f
 
 // Hairs on each side.
@@ -42,29 +41,14 @@ static Vec3 out_of(const VenationParams *params, float side, Vec3 foot, uint64_t
     return vec3_normalize(vec3_madd(out, lean, along));
 }
 
-// Writes the points of a hair, bent with the leaf.
-static void write_hair(const VenationParams *params, const Relief *relief, const Transform *place,
-                       float side, Vec3 foot, uint64_t key, Vec3 *position, float *radius)
-{
-    float length = params->hairs * random_range(random_key(key, STREAM_LENGTH), 0.5f, 1.2f);
-    Vec3 out = out_of(params, side, foot, key);
-    Vec3 bend = random_direction(random_key(key, STREAM_BEND_DRAW));
-    float lift = relief_at(relief, foot);
-    for (int k = 0; k < POINTS; k++) {
-        float t = (float)k / (POINTS - 1);
-        Vec3 p = vec3_madd(foot, length * t, vec3_madd(out, 0.45f * t, bend));
-        p.z += lift;
-        position[k] = transform_point(place, venation_bend(params, p));
-        radius[k] = THICKNESS * params->hairs * (1.0f - 0.8f * t);
-    }
-}
-
 CurveSet *margin_hairs(const VenationParams *params, const Relief *relief, const Transform *place,
                        Error *e)
 {
     int count = count_of(params);
-    CurveSet *hairs = curves_new(2 * (int64_t)count * POINTS, 2 * (int64_t)count, e);
-    int64_t curve = 0;
+    CurveSet *hairs = curves_new(2 * (int64_t)count * HAIR_POINTS, 2 * (int64_t)count, e);
+    if (hairs) {
+        hairs->curve_count = 0;
+    }
     for (int i = 0; hairs && i < 2 * count; i++) {
         float side = i < count ? -1.0f : 1.0f;
         uint64_t key = random_key(random_key(params->outline.key, STREAM_HAIRS), (uint64_t)i);
@@ -72,20 +56,12 @@ CurveSet *margin_hairs(const VenationParams *params, const Relief *relief, const
         if (blade_wear_depth(&relief->wear, foot) > 0.0f) {
             continue;
         }
-        int64_t point = POINTS * curve;
-        write_hair(params, relief, place, side, foot, key, hairs->position + point,
-                   hairs->radius + point);
-        for (int k = 0; k < POINTS; k++) {
-            hairs->birth[point + k] = 1.0f; // the blade is whole by then
-            hairs->along[point + k] = (float)k * params->hairs / (POINTS - 1);
-        }
-        hairs->id[curve] = key;
-        curve++;
-        hairs->first[curve] = point + POINTS;
+        Hair hair = {foot, out_of(params, side, foot, key), relief_at(relief, foot), params->hairs,
+                     key};
+        hair_add(hairs, params, place, &hair);
     }
     if (hairs) {
-        hairs->curve_count = curve;
-        hairs->point_count = POINTS * curve;
+        hairs->point_count = HAIR_POINTS * hairs->curve_count;
     }
     return hairs;
 }

@@ -76,12 +76,20 @@ static const Key VENATION_KEYS[] = {
     {KEY_OF(VenationParams, hairs, "hairs", KEY_FLOAT), .high = 1, .unit = "m",
      .doc = "Length of the fine hairs along the margin, as on a young beech leaf, in the material "
             "of the veins: 0.001 is natural; 0 = none. Needs a blade."},
+    {KEY_OF(VenationParams, vein_hairs, "vein_hairs", KEY_FLOAT), .high = 1, .unit = "m",
+     .doc = "Length of the fine hairs on the front of the veins that stand out, as below a hazel's "
+            "or lime's leaf, in the material of the veins: 0.0006 is natural; 0 = none. Needs a "
+            "blade."},
     {KEY_OF(VenationParams, wear, "wear", KEY_FLOAT), .high = 1,
      .doc = "Traces of insects, with dead rims: up to 16 holes and 3 bites at the margin. Thick "
             "veins are left whole. Needs a blade."},
     {KEY_OF(VenationParams, spots, "spots", KEY_FLOAT), .high = 1,
      .doc = "Age: up to 110 dead spots with yellow halos, patches that turn yellow, and a margin "
             "that dries here and there. Needs a blade."},
+    {KEY_OF(VenationParams, autumn, "autumn", KEY_FLOAT), .high = 1,
+     .doc = "How far the blade has turned: areole by areole it goes yellow (faded_color of its "
+            "material), last along the thick veins, and brown from the margin on: 0 = green, 0.5 = "
+            "yellow with green veins, 1 = no green is left. Needs a blade."},
     {KEY_OF(VenationParams, petiole, "petiole", KEY_FLOAT), .high = 1000, .unit = "m",
      .doc = "Length of the stalk; 0 = none."},
     {KEY_OF(VenationParams, curl, "curl", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",

@@ -5,6 +5,7 @@
 #include "objects/venation/blade.h"
 #include "objects/venation/margin_hairs.h"
 #include "objects/venation/vein_curves.h"
+#include "objects/venation/vein_hairs.h"
 #include "outtree/join.h"
 #include "outtree/radii.h"
 
@@ -38,7 +39,8 @@ VenationParams venation_params_resolve(const VenationParams *given)
     params.vein = params.vein > 0.0f ? params.vein : 0.06f * mesh;
     params.embedded = fminf(params.embedded, 0.95f * params.midrib); // the stalk stands out
     if (!params.blade) {
-        params.wear = params.spots = params.hairs = 0.0f;
+        params.wear = params.spots = params.autumn = 0.0f;
+        params.hairs = params.vein_hairs = 0.0f;
     }
     return params;
 }
@@ -155,6 +157,10 @@ bool venation_geometry(const void *given, const Grown *grown, const Placing *pla
     }
     if (done && params.hairs > 0.0f) {
         Part hairs = {.curves = margin_hairs(&params, &relief, &place, e)};
+        done = placing_add(placing, hairs, VENATION_VEINS, e);
+    }
+    if (done && params.vein_hairs > 0.0f) {
+        Part hairs = {.curves = vein_hairs(grown->tree, &params, &relief, &place, e)};
         done = placing_add(placing, hairs, VENATION_VEINS, e);
     }
     relief_clear(&relief);

@@ -26,8 +26,10 @@ typedef struct VenationParams {
     float relief;        // m: depth of the furrow of the midrib; lesser veins have lesser ones
     float wave;          // m: height of the waves on the margin
     float hairs;         // m: length of the hairs at the margin; 0 = none; only of a blade
+    float vein_hairs;    // m: length of those on the thick veins; 0 = none; only of a blade
     float wear;          // 0..1: holes and bites; only of a blade
     float spots;         // 0..1: dead spots and yellow patches; only of a blade
+    float autumn;        // 0..1: how far the blade has turned; only of a blade
     float curl;          // degrees that the blade bends back along its length
     float fold;          // degrees that each half folds up about the midrib
     bool blade;          // with the blade between the veins

@@ -131,6 +131,7 @@ typedef struct Material {
     Vec3 transmittance;   // MATERIAL_LEAF: diffuse transmittance
     Vec3 autumn_color;    // MATERIAL_LEAF: reflectance of a leaf that has turned
     Vec3 young_color;     // MATERIAL_LEAF: of a leaf out of its bud; black = paler than color
+    Vec3 faded_color;     // MATERIAL_LEAF: of tissue without green; black = of its own green
     Vec3 absorption;      // MATERIAL_DIELECTRIC: per metre, Beer-Lambert
     Vec3 scattering;      // MATERIAL_DIELECTRIC: per metre: clouded, milky, flesh
     float anisotropy;     // of that scattering: mean cosine, -1..1

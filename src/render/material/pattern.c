@@ -198,7 +198,7 @@ void pattern_apply(const Material *m, const SurfacePoint *point, PatternShade *s
         APPLY[m->pattern](m, point, shade);
     }
     if (point->withered > 0.0f) { // whatever the green was
-        pattern_wither(point, shade);
+        pattern_wither(m, point, shade);
     }
     if (m->variation > 0.0f) {
         uint32_t hash = (uint32_t)(point->variation * 16777216.0f);

@@ -55,7 +55,7 @@ float pattern_strata_height(const Material *material, const SurfacePoint *point)
 void pattern_water(const Material *material, const SurfacePoint *point, PatternShade *shade);
 void pattern_leaf(const Material *material, const SurfacePoint *point, PatternShade *shade);
 // Yellow and brown where the leaf is withered (SurfacePoint.withered).
-void pattern_wither(const SurfacePoint *point, PatternShade *shade);
+void pattern_wither(const Material *m, const SurfacePoint *point, PatternShade *shade);
 
 // The leaf's colours at its season: turned from the edge inward, or young.
 void pattern_season(const Material *material, const SurfacePoint *point, PatternShade *shade);

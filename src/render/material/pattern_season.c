@@ -53,7 +53,7 @@ void pattern_season(const Material *m, const SurfacePoint *point, PatternShade *
 
 // Chlorophyll goes first, which leaves yellow; then the tissue turns brown, and dries to a paler
 // straw. Where it withers from a spot outward, these lie about it as rings.
-void pattern_wither(const SurfacePoint *point, PatternShade *shade)
+void pattern_wither(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     const Vec3 brown = vec3(0.055f, 0.030f, 0.014f), brown_through = vec3(0.045f, 0.022f, 0.006f);
     const Vec3 straw = vec3(0.200f, 0.130f, 0.065f), straw_through = vec3(0.170f, 0.085f, 0.028f);
@@ -61,8 +61,14 @@ void pattern_wither(const SurfacePoint *point, PatternShade *shade)
     float dead = smoothstepf(MESH_YELLOW, MESH_BROWN, point->withered);
     float dry = smoothstepf(0.75f, 1.0f, point->withered);
     Vec3 c = shade->color, t = shade->transmittance;
-    c = vec3_lerp(c, vec3(fmaxf(c.x, 1.05f * c.y), 1.1f * c.y, 0.8f * c.z), yellow);
-    t = vec3_lerp(t, vec3(fmaxf(t.x, 1.10f * t.y), 1.1f * t.y, 0.8f * t.z), yellow);
+    Vec3 faded = vec3(fmaxf(c.x, 1.05f * c.y), 1.1f * c.y, 0.8f * c.z);
+    Vec3 faded_through = vec3(fmaxf(t.x, 1.10f * t.y), 1.1f * t.y, 0.8f * t.z);
+    if (vec3_largest(m->faded_color) > 0.0f) {
+        faded = m->faded_color;
+        faded_through = vec3_scale(faded, 0.85f); // it absorbs like its reflectance
+    }
+    c = vec3_lerp(c, faded, yellow);
+    t = vec3_lerp(t, faded_through, yellow);
     shade->color = vec3_lerp(vec3_lerp(c, brown, dead), straw, dry);
     shade->transmittance = vec3_lerp(vec3_lerp(t, brown_through, dead), straw_through, dry);
 }
