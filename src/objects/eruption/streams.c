@@ -74,8 +74,9 @@ static int64_t step_down(const HeightField *full, int64_t i, uint64_t key)
 
 static Vec3 sample_place(const HeightField *land, int64_t i)
 {
-    return vec3(land->origin.x + (float)(i % land->columns) * land->cell.x, 0.0f,
-                land->origin.y + (float)(i / land->columns) * land->cell.y);
+    int64_t column = i % land->columns, row = i / land->columns;
+    return vec3(land->origin.x + (float)column * land->cell.x, 0.0f,
+                land->origin.y + (float)row * land->cell.y);
 }
 
 // From sample to sample; returns their number.
