@@ -57,7 +57,8 @@ static void raise_strokes(const Badlands *b, Landscape *land)
 {
     const UpliftParams *uplift = &b->params.uplift;
     for (int64_t i = 0; uplift->stroke_count > 0 && i < (int64_t)land->side * land->side; i++) {
-        double x = (double)(i % land->side) + 0.5, z = (double)(i / land->side) + 0.5;
+        int64_t column = i % land->side, row = i / land->side;
+        double x = (double)column + 0.5, z = (double)row + 0.5;
         land->weakness[i] /= terrain_stroke_uplift(uplift, (float)(x / land->side) - 0.5f,
                                                    (float)(z / land->side) - 0.5f);
     }
