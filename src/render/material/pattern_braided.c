@@ -75,7 +75,7 @@ static Cover gravel(const SurfacePoint *point, Vec3 color, float age, float broa
     PatternOctaves grain = pattern_octaves(point, 1.6f, 7, 0.8f, 1.0f, 403);
     float ribbons = streaks(point, 26.0f, 405);
     Rills r = rills(point);
-    float coarse = 0.5f + 0.55f * ribbons + 0.4f * sheets.value + 0.5f * r.margin - 0.7f * r.floor;
+    float coarse = 0.58f + 0.55f * ribbons + 0.4f * sheets.value + 0.5f * r.margin - 0.7f * r.floor;
     coarse = smoothstepf(0.15f, 0.85f, coarse + 0.15f * grain.value);
     Vec3 sand = vec3_mul(color, vec3(1.16f, 1.13f, 1.06f));
     Vec3 stones = vec3_mul(color, vec3(0.80f, 0.82f, 0.83f));
@@ -86,9 +86,9 @@ static Cover gravel(const SurfacePoint *point, Vec3 color, float age, float broa
     Ground cobbles = pattern_stones(point, tint);
     Cover c = {.color = vec3_lerp(tint, cobbles.color, coarse)};
     c.color = vec3_scale(c.color, 1.0f + 0.10f * clampf(sheets.value, -1.3f, 1.3f) +
-                                      0.26f * clampf(grain.value, -1.3f, 1.3f));
-    c.slope = vec3_madd(vec3_scale(grain.slope, 0.05f), 0.3f, sheets.slope);
-    c.slope = vec3_add(vec3_madd(c.slope, 0.6f * coarse, cobbles.slope), r.slope);
+                                      0.32f * clampf(grain.value, -1.3f, 1.3f));
+    c.slope = vec3_madd(vec3_scale(grain.slope, 0.07f), 0.3f, sheets.slope);
+    c.slope = vec3_add(vec3_madd(c.slope, 0.8f * coarse, cobbles.slope), r.slope);
     return c;
 }
 
@@ -192,7 +192,7 @@ void pattern_glacial(const Material *m, const SurfacePoint *point, PatternShade 
     float depth = point->site.x / fmaxf(1.0f - point->site.x, 0.02f), rough = point->site.y;
     PatternOctaves bed = pattern_octaves(point, 7.0f, 7, 0.62f, 1.0f, 447);
     float lines = clampf(flow_lines(point), -1.2f, 1.2f);
-    float over = depth + 0.035f * bed.value + 0.02f * streaks(point, 26.0f, 405) - 0.015f;
+    float over = depth + 0.025f * bed.value + 0.02f * streaks(point, 26.0f, 405) - 0.015f;
     float dry = smoothstepf(0.012f, -0.012f, over), seen = expf(-fmaxf(over, 0.0f) / clear);
     float deep = smoothstepf(0.05f, 0.6f, over);
     Vec3 milk = vec3_scale(shade->color, (1.12f - 0.26f * deep) * (1.0f + 0.13f * lines));
