@@ -1,5 +1,6 @@
 // Braided rivers: even flow, still water, volume, how a bump of gravel moves and bends turn it,
-// narrow and wide rivers, the widest thread, threads, resolutions.
+// narrow and wide rivers, the widest thread, threads, resolutions, streamlines.
+#include "land/braid_lines.h"
 #include "land/braid_measure.h"
 #include "land/braid_parts.h"
 #include "making.h"
@@ -332,6 +333,65 @@ static void the_form_has_the_same_bits_for_any_threads(void **state)
     height_field_free(four);
 }
 
+// In even flow over the middle half they lie a metre a metre apart there, and none beside it.
+static void streamlines_share_the_discharge(void **state)
+{
+    (void)state;
+    const int side = 32, wide = 16;
+    Braid *b = flume(side, wide, 6.0, 0.0);
+    flow(b, 1.0, 6.0, false, 1);
+    Error e = {0};
+    float *lines = braid_lines_new(b, &e);
+    assert_non_null(lines);
+    for (int n = 0; n <= 2 * side; n++) {
+        double u = 0.5 * n, across = (u - 0.25 * side) * b->cell;
+        double wanted = fmin(fmax(across, 0.0), b->width);
+        float line = braid_line_at(b, lines, u, 7.3);
+        if (fabs((double)line - wanted) > 0.02 * b->width) {
+            fail_msg("line %g m at column %g, not %g", (double)line, u, wanted);
+        }
+    }
+    free(lines);
+    braid_free(b);
+}
+
+// Of a river that bends around a bar, too: what flows across a streamline is next to nothing.
+static void streamlines_follow_the_flow(void **state)
+{
+    (void)state;
+    const int side = 48, wide = 32;
+    Braid *b = flume(side, wide, 6.0, 0.0);
+    for (int64_t i = 0; i < braid_count(b); i++) {
+        double x = (double)(i % side) - 20.0, z = (double)(i / side) - 24.0;
+        b->bed[i] += b->erodible[i] > 0.0f ? 3.0 * MEAN * exp(-(x * x + 0.3 * z * z) / 12.0) : 0.0;
+    }
+    flow(b, 1.0, 20.0, false, 1);
+    Error e = {0};
+    float *lines = braid_lines_new(b, &e);
+    assert_non_null(lines);
+    double across = 0.0, along = 0.0; // of the flow, in lines a second
+    for (int row = 1; row + 1 < side; row++) {
+        for (int c = side / 4; c < side - side / 4; c++) {
+            int64_t i = (int64_t)row * side + c;
+            double u = c + 0.5, v = row + 0.5;
+            double dx =
+                (double)(braid_line_at(b, lines, u + 0.5, v) - braid_line_at(b, lines, u - 0.5, v));
+            double dz =
+                (double)(braid_line_at(b, lines, u, v + 0.5) - braid_line_at(b, lines, u, v - 0.5));
+            double qx = 0.5 * (double)(b->flow_x[i] + b->flow_x[i + 1]);
+            double qz = 0.5 * (double)(b->flow_z[i] + b->flow_z[i + side]);
+            across += fabs(qx * dx + qz * dz);
+            along += fabs(qx * dx) + fabs(qz * dz);
+        }
+    }
+    assert_true(along > 0.0);
+    if (across > 0.1 * along) {
+        fail_msg("%g of the flow crosses the lines", across / along);
+    }
+    free(lines);
+    braid_free(b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -345,6 +405,8 @@ int main(void)
         cmocka_unit_test(bends_turn_the_load_inward),
         cmocka_unit_test(rivers_are_like_natural_ones_at_any_resolution),
         cmocka_unit_test(the_form_has_the_same_bits_for_any_threads),
+        cmocka_unit_test(streamlines_share_the_discharge),
+        cmocka_unit_test(streamlines_follow_the_flow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "base/exact_math.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "land/braid_lines.h"
 #include "objects/terrain/internal.h"
 #include "objects/terrain/noise.h"
 
@@ -256,7 +257,8 @@ bool terrain_grow_braided(Terrain *terrain, const Run *run, Error *e)
     // Puddles much smaller than a bar are not shown.
     double bar = terrain->braid->mean / terrain->braid->slope / terrain->braid->cell;
     terrain->level = braid_level_new(terrain->braid, (int64_t)(0.1 * bar * bar), e);
-    terrain->sides = terrain->level ? grow_sides(terrain, run, e) : NULL;
+    terrain->lines = terrain->level ? braid_lines_new(terrain->braid, e) : NULL;
+    terrain->sides = terrain->lines ? grow_sides(terrain, run, e) : NULL;
     return terrain->sides;
 }
 
@@ -336,4 +338,12 @@ float terrain_braid_roughness(const Terrain *terrain, float x, float z)
     int row = (int)clampf((z + half) / (float)b->cell, 0.0f, last);
     float shear = b->shear[(int64_t)row * b->side + column];
     return shear / (1.0f + shear);
+}
+
+float terrain_braid_line(const Terrain *terrain, float x, float z)
+{
+    const Braid *b = terrain->braid;
+    double half = 0.5 * (double)terrain->params->size;
+    return braid_line_at(b, terrain->lines, ((double)x + half) / b->cell,
+                         ((double)z + half) / b->cell);
 }

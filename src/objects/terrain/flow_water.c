@@ -168,7 +168,7 @@ static Vec3 water_normal(const HeightField *field, int64_t i)
     return vec3_normalize(vec3(-dx, 1.0f, -dz));
 }
 
-// site.x: depth over 1 m + itself; site.y: how rough the water is.
+// site.x: depth over 1 m + itself; site.y: how rough the water is. uv.x: its streamline, or x.
 static void fill_vertices(const WaterMesher *w, Mesh *mesh)
 {
     const HeightField *field = w->field;
@@ -187,6 +187,9 @@ static void fill_vertices(const WaterMesher *w, Mesh *mesh)
             vec3_add(vec3(at.x, field->water[i], at.y), w->terrain->params->position);
         mesh->normal[v] = water_normal(field, i);
         mesh->uv[v] = (Vec2){mesh->position[v].x, mesh->position[v].z};
+        if (form->line) {
+            mesh->uv[v].x = form->line(w->terrain, at.x, at.y);
+        }
         mesh->site[v] = (Vec2){depth / (1.0f + depth), form->roughness(w->terrain, at.x, at.y)};
     }
 }

@@ -47,6 +47,8 @@ typedef struct Form {
     // Of water with levels of its own: how rough its flow is at a place, 0..1; of a delta's how
     // much mud it carries.
     float (*roughness)(const Terrain *terrain, float x, float z);
+    // The streamline of its flow there, m: across a river that flows evenly. NULL = not known.
+    float (*line)(const Terrain *terrain, float x, float z);
     // What lies around the square, instead of its copies. NULL = its copies.
     bool (*beyond)(const Terrain *terrain, const Placing *placing, Error *e);
     // Beside what all forms that evolve measure. NULL = nothing.

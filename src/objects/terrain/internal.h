@@ -67,6 +67,7 @@ typedef struct Terrain {
     Dunes *dunes;         // of TERRAIN_DUNES; set by terrain_heights
     Braid *braid;         // of TERRAIN_BRAIDED, with the two that follow; set by terrain_heights
     BraidLevel *level;
+    float *lines;             // likewise: of its flow, see land/braid_lines.h
     struct DeltaLand *delta;  // of TERRAIN_DELTA; set by terrain_heights
     Meander *meander;         // of TERRAIN_MEANDER; set by terrain_heights
     HeightField *plain;       // likewise: its land, sample by sample
@@ -384,6 +385,8 @@ void terrain_sample_braided(const Terrain *terrain, HeightField *field, int64_t 
                             float z);
 // braided.c: of the flow at a place, from 0 in still water to 1.
 float terrain_braid_roughness(const Terrain *terrain, float x, float z);
+// braided.c: the streamline at a place: m across the plain if the water flowed evenly over it.
+float terrain_braid_line(const Terrain *terrain, float x, float z);
 // flow_water.c: takes away standing water that ends where its level is not known.
 bool terrain_drain_pools(HeightField *field, Error *e);
 // Fills terrain->bank where the ground is less than `reach` m above water near it.

@@ -69,6 +69,7 @@ static void forget(Terrain *terrain)
     dunes_free(terrain->dunes);
     braid_free(terrain->braid);
     braid_level_free(terrain->level);
+    free(terrain->lines);
     height_field_free(terrain->sides);
     meander_free(terrain->meander);
     delta_land_free(terrain->delta);
@@ -78,6 +79,7 @@ static void forget(Terrain *terrain)
     terrain->plain = NULL;
     terrain->braid = NULL;
     terrain->level = NULL;
+    terrain->lines = NULL;
     terrain->sides = NULL;
     terrain->evolved = NULL;
     terrain->ground = NULL;

@@ -75,10 +75,10 @@ static Cover gravel(const SurfacePoint *point, Vec3 color, float age, float broa
     PatternOctaves grain = pattern_octaves(point, 1.6f, 7, 0.8f, 1.0f, 403);
     float ribbons = streaks(point, 26.0f, 405);
     Rills r = rills(point);
-    float coarse = 0.5f + 0.55f * ribbons + 0.4f * sheets.value + 0.5f * r.margin - 0.7f * r.floor;
-    coarse = clampf(coarse + 0.15f * grain.value, 0.0f, 1.0f);
-    Vec3 sand = vec3_mul(color, vec3(1.10f, 1.08f, 1.04f));
-    Vec3 stones = vec3_mul(color, vec3(0.88f, 0.90f, 0.91f));
+    float coarse = 0.58f + 0.55f * ribbons + 0.4f * sheets.value + 0.5f * r.margin - 0.7f * r.floor;
+    coarse = smoothstepf(0.15f, 0.85f, coarse + 0.15f * grain.value);
+    Vec3 sand = vec3_mul(color, vec3(1.16f, 1.13f, 1.06f));
+    Vec3 stones = vec3_mul(color, vec3(0.80f, 0.82f, 0.83f));
     Vec3 silt = vec3_mul(color, vec3(0.62f, 0.62f, 0.58f));
     Vec3 tint = vec3_lerp(vec3_lerp(sand, stones, coarse), silt, 0.75f * r.floor);
     float dark = smoothstepf(0.0f, 0.5f, age + 0.12f * broad + 0.16f * ribbons);
@@ -86,10 +86,22 @@ static Cover gravel(const SurfacePoint *point, Vec3 color, float age, float broa
     Ground cobbles = pattern_stones(point, tint);
     Cover c = {.color = vec3_lerp(tint, cobbles.color, coarse)};
     c.color = vec3_scale(c.color, 1.0f + 0.10f * clampf(sheets.value, -1.3f, 1.3f) +
-                                      0.26f * clampf(grain.value, -1.3f, 1.3f));
-    c.slope = vec3_madd(vec3_scale(grain.slope, 0.05f), 0.3f, sheets.slope);
-    c.slope = vec3_add(vec3_madd(c.slope, 0.6f * coarse, cobbles.slope), r.slope);
+                                      0.32f * clampf(grain.value, -1.3f, 1.3f));
+    c.slope = vec3_madd(vec3_scale(grain.slope, 0.07f), 0.3f, sheets.slope);
+    c.slope = vec3_add(vec3_madd(c.slope, 0.8f * coarse, cobbles.slope), r.slope);
     return c;
+}
+
+// Lines of sand and of stones that the water left where it stood as it fell: along its margin,
+// about 5 cm one below the other. A share of the reflectance.
+static float strandlines(const SurfacePoint *point, float damp, float patch)
+{
+    const float lines = 9.0f; // about, from dry to wet
+    Vec3 at = vec3_scale(point->object_position, 0.02f);
+    at.y = lines * (damp + 0.04f * patch);
+    float near = smoothstepf(0.15f, 0.4f, damp) * pattern_detail(1.5f, point->footprint);
+    return near * (0.7f * noise_solid(at, 471, NULL) +
+                   0.3f * noise_solid(vec3_scale(at, 2.7f), 473, NULL));
 }
 
 // Mats of willow herb, mountain avens and grass: in spots at first, then closed.
@@ -145,34 +157,54 @@ void pattern_braided(const Material *m, const SurfacePoint *point, PatternShade 
     float moist = damp + 0.07f * patch.value;
     float wet = 0.4f * smoothstepf(0.5f, 0.9f, moist) + 0.6f * smoothstepf(0.94f, 1.0f, moist);
     wet *= 1.0f - terrace;
-    shade->color = vec3_scale(ground.color, 1.0f - 0.48f * wet);
+    float strand = 0.24f * (1.0f - terrace) * strandlines(point, damp, patch.value);
+    shade->color = vec3_scale(ground.color, (1.0f - 0.48f * wet) * (1.0f + strand));
     Vec3 slope = vec3_scale(ground.slope, m->pattern_depth * (1.0f - 0.5f * wet));
     shade->normal = pattern_tilt(shade->normal, slope);
 }
 
+// Lines of smooth and of rough water along the flow. uv.x: its streamline.
+static float flow_lines(const SurfacePoint *point)
+{
+    SurfacePoint drawn = *point;
+    drawn.object_position =
+        vec3(point->uv.x, 0.0f, 0.04f * point->object_position.z); // they last for long
+    float metre = vec3_length(point->tangent_u); // of the river, a metre across even flow
+    drawn.footprint = metre > 0.0f ? point->footprint / metre : point->footprint;
+    return pattern_octaves(&drawn, 48.0f, 8, 0.75f, 1.0f, 443).value;
+}
+
+// Crests lie across the flow, along which uv.x does not change.
+static Vec3 crests_across(const SurfacePoint *point, Vec3 slope)
+{
+    Vec3 along = vec3_normalize(vec3(point->tangent_v.x, 0.0f, point->tangent_v.z));
+    Vec3 rising = vec3_scale(along, vec3_dot(along, slope));
+    return vec3_madd(vec3_scale(rising, 1.3f), 0.45f, vec3_sub(slope, rising));
+}
+
 // Rock flour scatters what light comes in, so depth alone tells the colour: the bed (color2) shines
-// through where water is shallow, and its stones rise from the thinnest sheets. Flow draws lines of
-// smooth and of rough water along itself; riffles are rough all over. site.x = depth / (1 m +
-// depth), site.y how rough the flow is: white where it is swift.
+// through where water is shallow, and its stones rise from the thinnest sheets; what is deep is
+// darker. Flow draws lines of smooth and of rough water along itself; riffles are rough all over.
+// site.x = depth / (1 m + depth), site.y how rough the flow is: white where it is swift.
 void pattern_glacial(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    const float clear = 0.12f; // m: depth in which the bed fades to 1 / e
+    const float clear = 0.08f; // m: depth in which the bed fades to 1 / e
     float depth = point->site.x / fmaxf(1.0f - point->site.x, 0.02f), rough = point->site.y;
     PatternOctaves bed = pattern_octaves(point, 7.0f, 7, 0.62f, 1.0f, 447);
-    float lines = clampf(streaks(point, 9.0f, 443), -1.2f, 1.2f);
-    float over = depth + 0.05f * bed.value + 0.02f * streaks(point, 26.0f, 405) - 0.015f;
+    float lines = clampf(flow_lines(point), -1.2f, 1.2f);
+    float over = depth + 0.025f * bed.value + 0.02f * streaks(point, 26.0f, 405) - 0.015f;
     float dry = smoothstepf(0.012f, -0.012f, over), seen = expf(-fmaxf(over, 0.0f) / clear);
-    Vec3 milk = vec3_scale(shade->color, 1.0f + 0.10f * lines);
+    float deep = smoothstepf(0.05f, 0.6f, over);
+    Vec3 milk = vec3_scale(shade->color, (1.12f - 0.26f * deep) * (1.0f + 0.13f * lines));
     Ground stones = pattern_stones(point, m->color2);
     shade->color = vec3_lerp(milk, stones.color, 0.85f * seen + (0.15f - 0.15f * seen) * dry);
-    // Waves are shorter across the flow than along their crests.
     float scale = m->pattern_scale > 0.0f ? m->pattern_scale : 5.0f;
-    PatternOctaves waves = pattern_octaves(point, scale, 7, 0.58f, 1.0f, 449);
-    Vec3 slope = vec3(waves.slope.x, 0.0f, waves.slope.z);
-    float height = m->pattern_depth * (0.35f + 3.2f * rough * rough) * (1.0f + 0.6f * lines);
+    PatternOctaves waves = pattern_octaves(point, scale, 7, 0.62f, 1.0f, 449);
+    Vec3 slope = crests_across(point, vec3(waves.slope.x, 0.0f, waves.slope.z));
+    float height = m->pattern_depth * (0.35f + 3.2f * rough * rough) * (1.0f + 0.7f * lines);
     slope = vec3_lerp(vec3_scale(slope, height), vec3_scale(stones.slope, 0.5f), dry);
     Vec2 at = {point->object_position.z, point->object_position.x};
-    float crests = 0.35f * smoothstepf(0.5f, 0.8f, rough + 0.12f * waves.value + 0.08f * lines);
+    float crests = 0.25f * smoothstepf(0.55f, 0.85f, rough + 0.12f * waves.value + 0.10f * lines);
     float foam =
         (1.0f - dry) * foam_share((FoamCover){crests, 0.0f}, (FoamPlace){at, at}, point->footprint);
     shade->color = vec3_lerp(shade->color, vec3_splat(0.7f), foam);
