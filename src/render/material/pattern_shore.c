@@ -9,34 +9,46 @@
 enum { SEED_STONES = 601, SEED_RAGGED = 611, SEED_PATCHES = 613, SEED_SILT = 617 };
 
 // Each has a tone of its own; gaps between them are dark.
+// Stones of one size (m), which water has rounded. stands: the share of them that lie there, 0..1.
+// covered: where one lies, 0..1.
+static Ground stones_of(Vec3 p, float size, uint32_t seed, Vec3 rock, float stands, float *covered)
+{
+    Vec3 q = vec3(p.x / size, 0.5f, 1.3f * p.z / size);
+    CellPoint cell = noise_cells_on(q, vec3(0, 1, 0), seed);
+    float away = sqrtf(cell.point.x * cell.point.x + cell.point.z * cell.point.z);
+    float radius = 0.26f + 0.3f * noise_unit(cell.cell, 37);
+    float inside = fminf(cell.border, radius - away) - 0.03f;
+    float lies = noise_unit(cell.cell, 31) < stands;
+    *covered = lies * smoothstepf(0.0f, 0.05f, inside);
+    float kind = noise_unit(cell.cell, 33), tone = 0.6f + 0.62f * noise_unit(cell.cell, 35);
+    Vec3 tint = kind < 0.2f    ? vec3(1.08f, 0.98f, 0.86f)
+                : kind < 0.35f ? vec3(0.80f, 0.84f, 0.86f)
+                               : vec3(1.0f, 1.0f, 1.0f);
+    float rim = 1.0f - smoothstepf(0.0f, 0.12f, inside);
+    float round = 1.0f - smoothstepf(0.0f, 0.3f, inside);
+    Vec3 rises = away > 1e-4f ? vec3_scale(vec3(cell.point.x, 0, cell.point.z), 1.0f / away)
+                              : vec3_splat(0.0f);
+    return (Ground){vec3_scale(vec3_mul(rock, tint), tone * (1.0f - 0.3f * rim)),
+                    vec3_scale(rises, 1.2f * round)};
+}
+
 Ground pattern_stones(const SurfacePoint *point, Vec3 rock)
 {
-    enum { SIZES = 4 };
-    static const float size[SIZES] = {0.9f, 0.32f, 0.12f, 0.045f}; // m
-    Ground g = {.color = rock};
+    enum { SIZES = 5 };
+    static const float size[SIZES] = {0.055f, 0.12f, 0.24f, 0.45f, 0.9f}; // m, the smallest beneath
+    static const float share[SIZES] = {1.0f, 0.65f, 0.4f, 0.22f, 0.08f};
     PatternOctaves patches = pattern_octaves(point, 3.0f, 4, 0.6f, 1.0f, SEED_PATCHES);
-    Vec3 p = point->object_position;
+    float grit = pattern_octaves(point, 0.5f, 6, 0.8f, 1.0f, SEED_PATCHES + 5).value;
+    Ground g = {.color = vec3_scale(rock, 0.82f + 0.12f * clampf(grit, -1.5f, 1.5f))};
     for (uint32_t i = 0; i < SIZES; i++) {
-        float seen = pattern_detail(0.7f * size[i], point->footprint);
+        float seen = pattern_detail(0.7f * size[i], point->footprint), covered;
         if (seen <= 0.0f) {
-            break;
+            continue;
         }
-        Vec3 q = vec3_scale(p, 1.0f / size[i]);
-        q.y *= 1.5f; // they lie flat
-        CellPoint cell = noise_cells(q, SEED_STONES + i);
-        // Large ones lie apart, in what is smaller.
-        float among = noise_unit(cell.cell, 31) + 0.25f * patches.value;
-        float lies = seen * (i + 1 < SIZES ? smoothstepf(0.62f, 0.66f, among) : 1.0f);
-        float kind = noise_unit(cell.cell, 33);
-        float tone = 0.55f + 0.75f * noise_unit(cell.cell, 35);
-        Vec3 tint = kind < 0.2f    ? vec3(1.08f, 0.98f, 0.86f)
-                    : kind < 0.35f ? vec3(0.80f, 0.84f, 0.86f)
-                                   : vec3(1.0f, 1.0f, 1.0f);
-        float gap = smoothstepf(0.10f, 0.0f, cell.border);
-        Vec3 color = vec3_scale(vec3_mul(rock, tint), tone * (1.0f - 0.6f * gap));
-        float round = 1.0f - smoothstepf(0.0f, 0.35f, cell.border);
-        Ground stone = {color, vec3_scale(cell.normal, 1.3f * round)};
-        g = ground_blend(g, &stone, lies);
+        float stands = share[i] + 0.5f * (1.0f - share[i]) * clampf(patches.value, -0.8f, 0.8f);
+        Ground stone =
+            stones_of(point->object_position, size[i], SEED_STONES + i, rock, stands, &covered);
+        g = ground_blend(g, &stone, seen * covered);
     }
     return g;
 }

@@ -6,7 +6,8 @@
 #include "render/material/pattern_mix.h"
 #include "render/surface.h"
 
-// Rounded stones side by side, of 4 cm to 0.9 m, in tones of the rock's reflectance.
+// Rounded stones of 5 cm to 0.9 m on gravel, the larger the fewer, in tones of the rock's
+// reflectance.
 Ground pattern_stones(const SurfacePoint *point, Vec3 rock);
 
 // The ground with its shore, where water is near (SurfacePoint.shore). rock: reflectance of dry
