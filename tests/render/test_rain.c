@@ -1,4 +1,5 @@
 // Rain: the rainbow where Descartes finds it, energy, and shafts along rays.
+#include "render/rain/airy.h"
 #include "render/rain/rain.h"
 #include "render/rain/rain_phase.h"
 #include "testing.h"
@@ -55,6 +56,56 @@ static void rainbows_stand_where_they_are_seen(void **state)
     print_message("green: first %.4f, second %.4f, inside %.4f, Alexander's band %.4f\n", first,
                   second, inside, between);
     assert_true(first > 1.8 * second && second > 2.0 * between && inside > 2.0 * between);
+    free(phase);
+}
+
+// The integral of Ai from 0 is 1/3, it is greatest at the first zero of Ai and nears 1 (Olver
+// 2010, 9.9 and 9.10); and Ai(0)^2 is what 1/sqrt(t) gives when folded with it.
+static void airy_is_that_of_the_tables(void **state)
+{
+    (void)state;
+    double *beyond = malloc(AIRY_STEPS * sizeof *beyond), best = 0.0, at = 0.0, folded = 0.0;
+    const double twice = 1.5874010519681994; // 2^(2/3)
+    airy_fill(beyond);
+    for (double y = -4.0; y < 4.0; y += 1e-3) {
+        double value = airy_beyond(beyond, y);
+        at = value > best ? y : at;
+        best = fmax(best, value);
+    }
+    for (double root = 0.0; root < 1.9; root += 1e-3) { // t = root^2
+        double t0 = root * root, t1 = (root + 1e-3) * (root + 1e-3);
+        double share = airy_beyond(beyond, twice * t0) - airy_beyond(beyond, twice * t1);
+        folded += share / (root + 5e-4) / (2.0 * PI);
+    }
+    print_message("1/3: %.6f; greatest at %.4f; Ai(0)^2 folded: %.6f\n", airy_beyond(beyond, 0.0),
+                  at, folded);
+    assert_true(fabs(airy_beyond(beyond, 0.0) - 1.0 / 3.0) < 1e-6);
+    assert_true(fabs(at + 2.338107) < 6e-3);
+    assert_true(fabs(airy_beyond(beyond, -50.0) - 1.0) < 0.05);
+    assert_true(fabs(folded - 0.355028054 * 0.355028054) < 1e-4);
+    free(beyond);
+}
+
+// From the outside in, red leads, then green, then blue, by more than the blue of the sky behind
+// takes away.
+static void the_bow_has_all_colours(void **state)
+{
+    (void)state;
+    RainPhase *phase = rain_phase_new(NULL);
+    double lead[3] = {0}, where[3] = {0};
+    for (double a = 38.0; a < 44.0; a += 0.02) {
+        Vec3 d = rain_phase(phase, (float)cos((180.0 - a) * PI / 180.0));
+        for (int c = 0; c < 3; c++) {
+            double least = fmax((double)channel(d, (c + 1) % 3), (double)channel(d, (c + 2) % 3));
+            double ratio = (double)channel(d, c) / least;
+            where[c] = ratio > lead[c] ? a : where[c];
+            lead[c] = fmax(lead[c], ratio);
+        }
+    }
+    print_message("red leads by %.2f at %.2f, green by %.2f at %.2f, blue by %.2f at %.2f\n",
+                  lead[0], where[0], lead[1], where[1], lead[2], where[2]);
+    assert_true(where[0] > where[1] && where[1] > where[2]);
+    assert_true(lead[0] > 1.5 && lead[1] > 2.5 && lead[2] > 2.0);
     free(phase);
 }
 
@@ -230,6 +281,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rainbows_stand_where_they_are_seen),
+        cmocka_unit_test(airy_is_that_of_the_tables),
+        cmocka_unit_test(the_bow_has_all_colours),
         cmocka_unit_test(drops_lose_no_light),
         cmocka_unit_test(directions_are_drawn_by_the_phase),
         cmocka_unit_test(rain_lies_within_its_segment),

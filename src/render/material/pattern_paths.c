@@ -35,10 +35,15 @@ Paths pattern_terracettes(const SurfacePoint *point, float rise, uint32_t seed)
     if (most <= 0.0f) {
         return (Paths){0};
     }
-    float level = point->object_position.y / rise + 1.1f * bend.value, whole = floorf(level);
+    PatternOctaves herd = pattern_octaves(point, 75.0f * rise, 4, 0.6f, 1.0f, seed + 1);
+    most *= smoothstepf(-0.45f, 0.25f, herd.value);
+    // Treads draw together and apart, and meet.
+    PatternOctaves drift = pattern_octaves(point, 16.0f * rise, 2, 0.5f, 1.0f, seed + 2);
+    float level = point->object_position.y / rise + 1.1f * bend.value + 1.3f * drift.value;
+    float whole = floorf(level);
     uint32_t path = seed + (uint32_t)(int32_t)whole * 2654435761u;
-    most *= trodden(point, path, 24.0f * rise, -0.35f);
-    float tread = 0.24f + 0.12f * noise_unit(path, 1), middle = 0.3f + 0.3f * noise_unit(path, 2);
+    most *= trodden(point, path, 14.0f * rise, -0.4f);
+    float tread = 0.15f + 0.30f * noise_unit(path, 1), middle = 0.25f + 0.4f * noise_unit(path, 2);
     float f = level - whole - middle, pixel = point->footprint;
     float seen = pattern_detail(apart, pixel); // beyond, pixels hold several
     Paths p = {.share = most * lerpf(0.30f, path_share(apart * f, apart * tread, pixel), seen)};

@@ -18,8 +18,8 @@ typedef struct Paths {
 // the line covers: its mean over all `away` does not hang on the footprint. All in one unit.
 float path_share(float away, float width, float footprint);
 
-// Terracettes: treads about `rise` m of height from one to the next, which begin and end, on
-// slopes steeper than some 17 degrees.
+// Terracettes: treads about `rise` m of height from one to the next, which begin, end, meet and
+// part, where herds go on slopes steeper than some 17 degrees.
 Paths pattern_terracettes(const SurfacePoint *point, float rise, uint32_t seed);
 
 // Tracks, `width` m wide, tens of metres apart.

@@ -2,22 +2,26 @@
 
 #include "base/exact_math.h"
 #include "base/memory.h"
+#include "render/rain/airy.h"
 #include "render/sky/atmosphere.h"
 #include "render/warp.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     ORDERS = 4,  // reflected outside; refracted through; reflected inside once; twice
     RAYS = 3000, // through one drop
-    SPREAD = 24, // bins on each side that a ray is spread over
-    FIRST = 390, // nm
+    TURNED = 2 * RAIN_PHASE_BINS, // bins of deflection, 0 .. 2 pi
+    SPREAD = 60,                  // bins on each side that a ray is spread over
+    SIZES = 40,                   // of drops
+    FIRST = 390,                  // nm
     LAST = 700,
     STEP = 10
 };
 
-// Degrees: drops of different sizes and not quite round, and diffraction (Lee 1998).
+// Degrees: of the orders that make no bow.
 static const double BLUR = 0.35;
 
 double rain_index(double nm)
@@ -34,23 +38,8 @@ static void fresnel(double cos_i, double cos_r, double n, double reflected[2])
     reflected[1] = p * p;
 }
 
-// Adds the power of a ray of this deflection to the bins, spread by a Gaussian.
-static void add_power(double *bin, const double *spread, double deflection, double power)
-{
-    const double pi = 3.14159265358979323846;
-    double angle = fmod(fabs(deflection), 2.0 * pi);
-    angle = angle > pi ? 2.0 * pi - angle : angle;
-    int middle = (int)(angle / pi * RAIN_PHASE_BINS);
-    for (int k = -SPREAD; k <= SPREAD; k++) {
-        int at = middle + k;
-        at = at < 0 ? -1 - at : at;
-        at = at >= RAIN_PHASE_BINS ? 2 * RAIN_PHASE_BINS - 1 - at : at;
-        bin[at] += power * spread[k + SPREAD];
-    }
-}
-
-// One wavelength: the power that goes to each bin of angle, together about 1.
-static void trace_drop(double n, const double *spread, double *bin)
+// One wavelength: the power that each order sends to each bin of deflection, together about 1.
+static void trace_drop(double n, double (*bin)[TURNED])
 {
     const double pi = 3.14159265358979323846;
     for (int k = 0; k < RAYS; k++) {
@@ -60,7 +49,7 @@ static void trace_drop(double n, const double *spread, double *bin)
         double r = (double)exact_atan2((float)sine, (float)cos_r);
         double area = 2.0 * b / RAYS;
         fresnel(cos_i, cos_r, n, share);
-        add_power(bin, spread, pi - 2.0 * i, area * 0.5 * (share[0] + share[1]));
+        bin[0][(int)((pi - 2.0 * i) / pi * RAIN_PHASE_BINS)] += area * 0.5 * (share[0] + share[1]);
         for (int order = 1; order < ORDERS; order++) {
             double power = 0.0;
             for (int k2 = 0; k2 < 2; k2++) {
@@ -69,19 +58,72 @@ static void trace_drop(double n, const double *spread, double *bin)
                     0.5 * through * (order > 1 ? share[k2] : 1.0) * (order > 2 ? share[k2] : 1.0);
             }
             double deflection = 2.0 * (i - r) + (order - 1) * (pi - 2.0 * r);
-            add_power(bin, spread, deflection, area * power);
+            int at = (int)(deflection / pi * RAIN_PHASE_BINS);
+            bin[order][at < TURNED ? at : TURNED - 1] += area * power;
         }
     }
 }
 
-static void fill_spread(double spread[2 * SPREAD + 1])
+static void normalise(double spread[2 * SPREAD + 1])
 {
-    double sum = 0.0, width = BLUR * RAIN_PHASE_BINS / 180.0;
-    for (int k = -SPREAD; k <= SPREAD; k++) {
-        sum += spread[k + SPREAD] = exact_exp(-0.5 * k * k / (width * width));
+    double sum = 0.0;
+    for (int k = 0; k <= 2 * SPREAD; k++) {
+        sum += spread[k];
     }
     for (int k = 0; k <= 2 * SPREAD; k++) {
         spread[k] /= sum;
+    }
+}
+
+static void fill_blur(double spread[2 * SPREAD + 1])
+{
+    double width = BLUR * RAIN_PHASE_BINS / 180.0;
+    for (int k = -SPREAD; k <= SPREAD; k++) {
+        spread[k + SPREAD] = exact_exp(-0.5 * k * k / (width * width));
+    }
+    normalise(spread);
+}
+
+// How the waves of a bow of `inside` reflections spread the power of its rays (Airy 1838): rays
+// pile up as 1/sqrt(t) at the least deflection, waves as Ai(-z)^2, which is 1/sqrt(t) folded with
+// 2^(2/3) Ai(2^(2/3) (t - z)) / (2 pi) (Reid 1995). z is the angle in units of h^(1/3) x^(-2/3),
+// for drops of x wavelengths of girth (van de Hulst 1957, 13.2). The mean of the drops of moderate
+// rain (Marshall and Palmer 1948) by their cross-section; larger ones are too flat to add to the
+// bow.
+static void fill_fringes(const double *beyond, double nm, double n, int inside,
+                         double spread[2 * SPREAD + 1])
+{
+    const double pi = 3.14159265358979323846, per_mm = 2.3, least = 0.3, most = 1.6;
+    double p2 = (inside + 1.0) * (inside + 1.0), short_of = n * n - 1.0;
+    double h = (p2 - 1.0) * (p2 - 1.0) / p2 * sqrt((p2 - n * n) / (short_of * short_of * short_of));
+    for (int k = 0; k <= 2 * SPREAD; k++) {
+        spread[k] = 0.0;
+    }
+    for (int s = 0; s < SIZES; s++) {
+        double across = least + (most - least) * (s + 0.5) / SIZES; // mm
+        double weight = across * across * exact_exp(-per_mm * across);
+        double x = pi * across * 1e6 / nm;
+        double bins =
+            (double)exact_pow((float)(h / (4.0 * x * x)), 1.0f / 3.0f) / pi * RAIN_PHASE_BINS;
+        for (int k = -SPREAD; k <= SPREAD; k++) {
+            spread[k + SPREAD] += weight * (airy_beyond(beyond, -(k + 0.5) / bins) -
+                                            airy_beyond(beyond, -(k - 0.5) / bins));
+        }
+    }
+    normalise(spread);
+}
+
+// Adds an order's power to the bins of angle, spread.
+static void add_order(const double *turned, const double *spread, double *bin)
+{
+    for (int i = 0; i < TURNED; i++) {
+        for (int k = -SPREAD; turned[i] > 0.0 && k <= SPREAD; k++) {
+            int at = i + k;
+            at = at < 0 ? -1 - at : at;
+            at = at >= TURNED ? 2 * TURNED - 1 - at : at;
+            at = at >= RAIN_PHASE_BINS ? TURNED - 1 - at : at;
+            bin[at] += turned[i] * spread[k + SPREAD];
+        }
     }
 }
 
@@ -122,36 +164,49 @@ static void add_up(RainPhase *phase)
     phase->drawn[RAIN_PHASE_BINS] = 1.0f;
 }
 
+typedef struct Bows {
+    double power[RAIN_PHASE_BINS][3], bin[RAIN_PHASE_BINS];
+    double turned[ORDERS][TURNED]; // of one wavelength
+    double beyond[AIRY_STEPS];
+} Bows;
+
+static void add_wavelength(Bows *bows, double nm)
+{
+    double spread[2 * SPREAD + 1], rgb[3], n = rain_index(nm);
+    wavelength_to_rgb(nm, rgb);
+    memset(bows->bin, 0, sizeof bows->bin);
+    memset(bows->turned, 0, sizeof bows->turned);
+    trace_drop(n, bows->turned);
+    fill_blur(spread);
+    for (int order = 0; order < ORDERS; order++) {
+        if (order > 1) {
+            fill_fringes(bows->beyond, nm, n, order - 1, spread);
+        }
+        add_order(bows->turned[order], spread, bows->bin);
+    }
+    for (int i = 0; i < RAIN_PHASE_BINS; i++) {
+        for (int c = 0; c < 3; c++) {
+            bows->power[i][c] += rgb[c] * bows->bin[i];
+        }
+    }
+}
+
 RainPhase *rain_phase_new(Error *e)
 {
     RainPhase *phase = memory_alloc(1, sizeof *phase, e);
-    double(*power)[3] = memory_alloc_zero(RAIN_PHASE_BINS, sizeof *power, e);
-    double *bin = memory_alloc(RAIN_PHASE_BINS, sizeof *bin, e);
-    if (!phase || !power || !bin) {
-        free(bin);
-        free(power);
+    Bows *bows = memory_alloc_zero(1, sizeof *bows, e);
+    if (!phase || !bows) {
+        free(bows);
         free(phase);
         return NULL;
     }
-    double spread[2 * SPREAD + 1];
-    fill_spread(spread);
+    airy_fill(bows->beyond);
     for (int nm = FIRST; nm <= LAST; nm += STEP) {
-        double rgb[3];
-        wavelength_to_rgb(nm, rgb);
-        for (int i = 0; i < RAIN_PHASE_BINS; i++) {
-            bin[i] = 0.0;
-        }
-        trace_drop(rain_index(nm), spread, bin);
-        for (int i = 0; i < RAIN_PHASE_BINS; i++) {
-            for (int c = 0; c < 3; c++) {
-                power[i][c] += rgb[c] * bin[i];
-            }
-        }
+        add_wavelength(bows, nm);
     }
-    to_density(phase, power);
+    to_density(phase, bows->power);
     add_up(phase);
-    free(bin);
-    free(power);
+    free(bows);
     return phase;
 }
 

@@ -1,5 +1,6 @@
-// How raindrops scatter light: geometric optics of spheres of water. A ray that is reflected once
-// inside of the drop makes the rainbow, one that is reflected twice the second.
+// How raindrops scatter light: geometric optics of spheres of water, and Airy's waves at the bows.
+// A ray that is reflected once inside of the drop makes the rainbow, one that is reflected twice
+// the second.
 #ifndef RAMIFY_RENDER_RAIN_RAIN_PHASE_H
 #define RAMIFY_RENDER_RAIN_RAIN_PHASE_H
 
