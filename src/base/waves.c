@@ -362,6 +362,32 @@ static float streaks(const Waves *waves, const WavePoint *point)
     return waves->streaks * lerpf(1.0f, share / mean, seen);
 }
 
+// Foam on the sheet of water that runs out on the shore, by how thick it still is: the lip at its
+// edge, of froth that the sheet pushes along, and the lace that trails behind it. The lip is wide
+// in some places, nearly gone in others.
+static float swash_lip(const Waves *waves, const WavePoint *point)
+{
+    const float lip = 0.015f, apart = 1.3f; // m
+    if (waves->swash <= 0.0f) {
+        return 0.0f;
+    }
+    float sheet = point->depth + point->displacement.y; // -infinity..: thickness, m
+    float ragged = lumps_at(point->place.x, point->place.y, apart, point->width);
+    return waves->swash * smoothstepf(lip * fmaxf(1.3f + ragged, 0.1f), 0.0f, sheet);
+}
+
+static float swash_lace(const Waves *waves, const WavePoint *point)
+{
+    const float most = 0.5f, sheet = 0.22f, apart = 3.5f; // share; m
+    if (waves->swash <= 0.0f) {
+        return 0.0f;
+    }
+    float thick = fmaxf(point->depth + point->displacement.y, 0.0f);
+    float patchy = 0.75f + 0.9f * lumps_at(point->place.x, point->place.y, apart, point->width);
+    float near = smoothstepf(sheet, 0.0f, thick);
+    return waves->swash * most * near * near * clampf(patchy, 0.0f, 1.5f);
+}
+
 WaveFoam waves_foam(const Waves *waves, const WavePoint *point)
 {
     // In surf waves of any steepness break, and the foam of a breaker lasts to the next one. In the
@@ -372,10 +398,15 @@ WaveFoam waves_foam(const Waves *waves, const WavePoint *point)
     float crest = dense * roller(waves, point, from);
     float trail = point->breaking * smoothstepf(from, from + 2.2f * spread, point->trail);
     float surf = point->drift > 0.0f ? old_surf(waves, point) : 0.0f;
+    float lip = swash_lip(waves, point), lace = swash_lace(waves, point);
     float lines = waves->streaks > 0.0f ? fminf(streaks(waves, point), most) : 0.0f;
     float left = point->left * point->left;
     float old =
         1.0f - (1.0f - 0.75f * trail) * (1.0f - surf) * (1.0f - lines) * (1.0f - widest * left);
+    if (waves->swash > 0.0f) {
+        old = 1.0f - (1.0f - old) * (1.0f - lace);
+        crest = fmaxf(crest, dense * lip);
+    }
     float cover = fmaxf(crest, old);
     float bubbles = fmaxf(cover, fmaxf(point->left, trail));
     return (WaveFoam){cover, cover > 0.0f ? crest / cover : 0.0f, bubbles};

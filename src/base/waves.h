@@ -65,6 +65,7 @@ typedef struct Waves {
     float shortest;   // m: the shortest wave of all tiles
     float breakers;   // 0..: by how much of their height crests that break fall forward
     float streaks;    // share of the sea that foam covers in lines along the wind
+    float swash;      // 0..1: how white the edge of the water on its shore is
     // Variance of the slopes of all waves shorter than 2^(WAVES_BAND_FIRST + i / 4) m, summed over
     // both axes: what a surface without these has as roughness.
     float hidden[WAVES_BANDS];
@@ -112,7 +113,8 @@ typedef struct WaveFoam {
 } WaveFoam;
 
 // A roller lies on the front of its crest down to a ragged edge; behind it foam thins out with its
-// age; in a strong wind some of it drifts in lines along the wind (Langmuir 1938).
+// age; in a strong wind some of it drifts in lines along the wind (Langmuir 1938). Where water runs
+// out on a shore, a lip of froth lies on its edge and lace on the sheet behind it.
 WaveFoam waves_foam(const Waves *waves, const WavePoint *point);
 
 // Depth of still water (m) by the grid; negative on land.

@@ -266,6 +266,45 @@ static void lines_of_foam_follow_the_wind(void **state)
     assert_true(fabs(mean - 0.01) < 0.001 && along > across + 0.1);
 }
 
+// Mean foam over places where the water is so thick: waves stand `rise` m above the still water.
+static double swash_of(float swash, float thick, float rise)
+{
+    enum { PLACES = 4000 };
+    Waves waves = {.way = {0.6f, 0.8f}, .foam = 1.0f, .spread = 0.4f, .swash = swash};
+    double sum = 0.0;
+    for (uint64_t i = 0; i < PLACES; i++) {
+        WavePoint point = {.depth = thick - rise,
+                           .displacement = {0.0f, rise, 0.0f},
+                           .normal = {0.0f, 1.0f, 0.0f},
+                           .place = {random_range(random_key(5, 2 * i), -200.0f, 200.0f),
+                                     random_range(random_key(5, 2 * i + 1), -200.0f, 200.0f)}};
+        WaveFoam foam = waves_foam(&waves, &point);
+        assert_true(foam.cover >= 0.0f && foam.cover <= 1.0f);
+        assert_true(foam.fresh >= 0.0f && foam.fresh <= 1.0f);
+        sum += (double)foam.cover;
+    }
+    return sum / PLACES;
+}
+
+// The edge of the water is white where it really is, also where a wave has carried it up the shore;
+// the sheet behind it less and less, deeper water not at all.
+static void edge_of_the_water_is_white(void **state)
+{
+    (void)state;
+    const float thick[] = {0.0f, 0.01f, 0.04f, 0.12f, 0.3f};
+    double last = 1.0;
+    for (int i = 0; i < 5; i++) {
+        double foam = swash_of(1.0f, thick[i], 0.0f);
+        printf("    %.2f m of water: foam %.3f\n", (double)thick[i], foam);
+        assert_true(foam < last);
+        assert_true(fabs(swash_of(1.0f, thick[i], 0.2f) - foam) < 1e-3);
+        assert_true(swash_of(0.0f, thick[i], 0.0f) == 0.0);
+        last = foam;
+    }
+    assert_true(swash_of(1.0f, 0.0f, 0.0f) > 0.6 && last == 0.0);
+    assert_true(swash_of(0.5f, 0.0f, 0.0f) < 0.7 * swash_of(1.0f, 0.0f, 0.0f));
+}
+
 // The height of the longest waves at a place.
 static float long_height(const Waves *waves, float x, float z)
 {
@@ -589,6 +628,7 @@ int main(void)
         cmocka_unit_test(bits_do_not_depend_on_threads),
         cmocka_unit_test(foam_covers_what_whitecaps_do),
         cmocka_unit_test(lines_of_foam_follow_the_wind),
+        cmocka_unit_test(edge_of_the_water_is_white),
         cmocka_unit_test(great_wave_stands_where_it_is_asked_for),
         cmocka_unit_test(crests_that_break_fall_forward),
         cmocka_unit_test(normals_of_breakers_are_those_of_the_surface),

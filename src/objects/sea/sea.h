@@ -15,6 +15,7 @@ typedef struct SeaParams {
     float level;        // m: y of the calm surface
     float choppiness;   // of the horizontal displacement
     float foam;         // factor on what whitecaps and surf cover
+    float swash;        // 0..1: foam where water runs out on the shore
     float breakers;     // how far crests that break fall forward, in their heights
     float drops;        // factor on the drops that these throw up
     float time;         // s

@@ -31,6 +31,9 @@ static const Key SEA_KEYS[] = {
      .doc = "How sharp crests are: 1 = as water moves, 0 = as high as troughs are deep."},
     {KEY_OF(SeaParams, foam, "foam", KEY_FLOAT), .high = 4,
      .doc = "How easily waves turn white: 1 = as at sea, 0 = never."},
+    {KEY_OF(SeaParams, swash, "swash", KEY_FLOAT), .high = 1,
+     .doc = "How white the edge of the water is where it runs out on the bed's shore: a lip of "
+            "froth, and lace on the sheet behind it; 0 = bare."},
     {KEY_OF(SeaParams, breakers, "breakers", KEY_FLOAT), .high = 2,
      .doc =
          "How far the steepest of the crests that break fall forward, in their heights above the "

@@ -131,6 +131,7 @@ Waves *sea_waves(const SeaParams *params, uint64_t seed, const Run *run, Error *
     }
     waves->way = sea_way(params);
     waves->choppiness = params->choppiness;
+    waves->swash = params->swash;
     waves->breakers = params->foam > 0.0f ? params->breakers : 0.0f;
     waves->shortest = (float)(TURN / shortest_shown(&waves->tile[WAVES_TILES - 1]));
     find_breaking(waves, params);
