@@ -367,7 +367,7 @@ static float streaks(const Waves *waves, const WavePoint *point)
 // in some places, nearly gone in others.
 static float swash_lip(const Waves *waves, const WavePoint *point)
 {
-    const float lip = 0.015f, apart = 1.3f; // m
+    const float lip = 0.024f, apart = 1.3f; // m
     if (waves->swash <= 0.0f) {
         return 0.0f;
     }
