@@ -398,15 +398,11 @@ WaveFoam waves_foam(const Waves *waves, const WavePoint *point)
     float crest = dense * roller(waves, point, from);
     float trail = point->breaking * smoothstepf(from, from + 2.2f * spread, point->trail);
     float surf = point->drift > 0.0f ? old_surf(waves, point) : 0.0f;
-    float lip = swash_lip(waves, point), lace = swash_lace(waves, point);
     float lines = waves->streaks > 0.0f ? fminf(streaks(waves, point), most) : 0.0f;
-    float left = point->left * point->left;
-    float old =
-        1.0f - (1.0f - 0.75f * trail) * (1.0f - surf) * (1.0f - lines) * (1.0f - widest * left);
-    if (waves->swash > 0.0f) {
-        old = 1.0f - (1.0f - old) * (1.0f - lace);
-        crest = fmaxf(crest, dense * lip);
-    }
+    float left = point->left * point->left, lace = swash_lace(waves, point);
+    float old = 1.0f - (1.0f - 0.75f * trail) * (1.0f - surf) * (1.0f - lines) *
+                           (1.0f - widest * left) * (1.0f - lace);
+    crest = fmaxf(crest, dense * swash_lip(waves, point));
     float cover = fmaxf(crest, old);
     float bubbles = fmaxf(cover, fmaxf(point->left, trail));
     return (WaveFoam){cover, cover > 0.0f ? crest / cover : 0.0f, bubbles};

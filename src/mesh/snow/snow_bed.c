@@ -243,8 +243,9 @@ static void set_surface(SnowBed *bed, const SnowParams *params, const SnowReach 
     for (int i = 0; i < bed->across * bed->along; i++) {
         int x = i % bed->across, z = i / bed->across;
         Slope slope = {.none = bed->highest[i] == -INFINITY}; // all around
-        if (!slope.none)
+        if (!slope.none) {
             slope = fit(bed, top, x, z, far);
+        }
         float level = 1.0f / sqrtf(1.0f + slope.x * slope.x + slope.z * slope.z);
         Vec3 p = vec3(bed->low_x + (float)x * bed->cell, slope.height,
                       bed->low_z + (float)z * bed->cell);

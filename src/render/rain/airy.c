@@ -6,8 +6,8 @@ static const double TOP = 6.0, EACH = 0.005;
 void airy_fill(double *beyond)
 {
     const double h = -EACH;
-    double y = TOP, ai = 9.947694360252892e-6, slope = -2.4765200397034985e-5;
-    double integral = 3.88174e-6; // of Ai above 6
+    double y = TOP, ai = 9.947694360252892e-6, slope = -2.4765200397034985e-5; // Ai(6), Ai'(6)
+    double integral = 3.88174e-6;                                              // of Ai above 6
     for (int i = 0; i < AIRY_STEPS; i++) {
         beyond[i] = integral;
         double a1 = slope, s1 = y * ai;
