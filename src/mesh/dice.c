@@ -84,7 +84,7 @@ static void displace(Dicer *dicer, int64_t first)
 #pragma omp parallel for num_threads(dicer->run->threads) schedule(dynamic, 4096)
     for (int64_t i = first; i < dicer->point_count; i++) {
         const DicePoint *point = &dicer->point[i];
-        float height = rule->height(rule->user, point, &dicer->share[i]);
+        float height = rule->height(rule->user, point, dicer->coarsening, &dicer->share[i]);
         dicer->displaced[i] = vec3_madd(point->position, height, point->normal);
     }
 }
@@ -301,6 +301,7 @@ static void coarsen(Dicer *dicer)
     dicer->coarsening = dicer->coarsening > 1.0f
                             ? dicer->coarsening * COARSER
                             : COARSER * dice_coarsening(&whole, dicer->rule, dicer->run);
+    displace(dicer, 0);
 }
 
 // *halved: some edge was.

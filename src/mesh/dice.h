@@ -23,8 +23,10 @@ typedef struct DicePoint {
 typedef struct DiceRule {
     // m: edges between such points that are longer are halved. INFINITY = none.
     float (*longest)(const void *user, const DicePoint *a, const DicePoint *b);
-    // m along the normal. *share: how much of the relief that is, 0..1; 0 = none, height 0.
-    float (*height)(const void *user, const DicePoint *point, float *share);
+    // m along the normal. coarsening: edges are so many times as long as wanted, so relief that is
+    // finer than they can show has to stay out. *share: how much of the relief that is, 0..1; 0 =
+    // none, height 0.
+    float (*height)(const void *user, const DicePoint *point, float coarsening, float *share);
     const void *user;
     int64_t most_faces; // beyond it, edges stay longer everywhere
 } DiceRule;

@@ -18,10 +18,11 @@ typedef struct Corner {
     Vec3 displaced;
 } Corner;
 
-static Corner middle_of(const DiceRule *rule, const Corner *a, const Corner *b)
+static Corner middle_of(const Census *census, const Corner *a, const Corner *b)
 {
+    const DiceRule *rule = census->rule;
     Corner middle = {.point = dice_middle(&a->point, &b->point)};
-    float share, height = rule->height(rule->user, &middle.point, &share);
+    float share, height = rule->height(rule->user, &middle.point, census->coarsening, &share);
     middle.displaced = vec3_madd(middle.point.position, height, middle.point.normal);
     return middle;
 }
@@ -38,7 +39,7 @@ static int64_t count_faces(const Census *census, const Corner corner[3], int dep
         if (dice_is_long(census->rule, census->coarsening, &a->point, a->displaced, &b->point,
                          b->displaced)) {
             mark |= 1u << k;
-            all[3 + k] = middle_of(census->rule, a, b);
+            all[3 + k] = middle_of(census, a, b);
             position[3 + k] = all[3 + k].point.position;
         }
     }

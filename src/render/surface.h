@@ -26,6 +26,8 @@ typedef struct SurfacePoint {
     float radius; // m, of the branch; 0 when unknown
     float birth;
     float displaced;    // share of the relief that is in the geometry, 0..1; bumps make the rest
+    float coarsening;   // the geometry shows that relief as of pixels so many times as wide; bumps
+                        // make what is finer. At most 1 = as fine as the pixel
     Vec3 smooth_normal; // of diced meshes: unit, world, on the side of normal, of the surface
                         // before displacement; else 0
     Vec3 along;         // of diced meshes: unit, world, the way in which v grows; else 0

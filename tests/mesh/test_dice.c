@@ -13,6 +13,7 @@ typedef struct Wanted {
     float height; // m, of the waves
     float near;   // edges are to be diced where z is above it
     float growth; // per m: edges are longer by this times the distance from the end z = -1
+    float fine;   // m: of ripples a tenth as wide as the waves, where edges are as wanted
 } Wanted;
 
 static float waves(Vec3 p, float height)
@@ -27,11 +28,12 @@ static float wanted_edge(const void *user, const DicePoint *a, const DicePoint *
     return z > wanted->near ? wanted->edge * (1.0f + wanted->growth * (z + 1.0f)) : INFINITY;
 }
 
-static float wanted_height(const void *user, const DicePoint *p, float *share)
+static float wanted_height(const void *user, const DicePoint *p, float coarsening, float *share)
 {
     const Wanted *wanted = user;
     *share = smoothstepf(wanted->near, wanted->near + 0.3f, p->position.z);
-    return *share * waves(p->position, wanted->height);
+    float ripples = waves(vec3_scale(p->position, 10.0f), wanted->fine / coarsening);
+    return *share * (waves(p->position, wanted->height) + ripples);
 }
 
 static DicedMesh dice(const Mesh *mesh, const Wanted *wanted, int64_t most, int threads)
@@ -182,6 +184,24 @@ static void the_limit_on_faces_is_kept(void **state)
     mesh_free(tube);
 }
 
+// The vertices of the mesh, which were displaced before the limit was met, too.
+static void all_vertices_know_how_long_edges_became(void **state)
+{
+    (void)state;
+    Mesh *tube = sheet(16, true);
+    Wanted wanted = {.edge = 0.002f, .height = 0.03f, .near = -2.0f, .fine = 0.01f};
+    DicedMesh d = dice(tube, &wanted, 20000, 2);
+    assert_true(d.coarsening > 5.0f && d.mesh->vertex_count > tube->vertex_count);
+    for (int64_t i = 0; i < d.mesh->vertex_count; i++) {
+        const DicePoint at = {.position = d.mesh->position[i]};
+        float share, height = wanted_height(&wanted, &at, d.coarsening, &share);
+        Vec3 moved = vec3_sub(d.displaced[i], d.mesh->position[i]);
+        assert_float_equal(vec3_dot(moved, d.mesh->normal[i]), height, 1e-5f);
+    }
+    diced_mesh_clear(&d);
+    mesh_free(tube);
+}
+
 // Mean of how long edges are against what is wanted, over faces between two heights.
 static double mean_length(const DicedMesh *d, const Wanted *wanted, float low, float high)
 {
@@ -243,6 +263,7 @@ int main(void)
         cmocka_unit_test(nothing_is_made_where_nothing_is_asked_for),
         cmocka_unit_test(the_limit_on_faces_is_kept),
         cmocka_unit_test(the_limit_on_faces_is_borne_by_all),
+        cmocka_unit_test(all_vertices_know_how_long_edges_became),
         cmocka_unit_test(threads_do_not_change_a_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

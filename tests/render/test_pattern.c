@@ -967,6 +967,47 @@ static void test_snow(void **state)
     assert_true(off < 0.2 * slopes);
 }
 
+static float clay_height(const Material *m, const SurfacePoint *point, Vec3 p)
+{
+    SurfacePoint at = *point;
+    at.object_position = p;
+    return pattern_height(m, &at);
+}
+
+// What is too fine for the geometry is bumps, all of it and once: for relief as of pixels five
+// times as wide, the bumps are the slope less that of the wide pixel.
+static void test_bumps_are_what_the_geometry_leaves_out(void **state)
+{
+    (void)state;
+    enum { PLACES = 2000 };
+    const float step = 0.004f;
+    Material m = material_default(MATERIAL_DIFFUSE);
+    m.pattern = PATTERN_BADLANDS;
+    m.pattern_scale = 10.0f;
+    m.pattern_depth = 0.5f;
+    double fine = 0.0, left_out = 0.0, off = 0.0;
+    for (int i = 0; i < PLACES; i++) {
+        SurfacePoint p = on_stone(random_point((uint64_t)i, 9.0f), 0.01f), wide = p;
+        wide.footprint = 0.05f;
+        p.displaced = 1.0f;
+        p.coarsening = 5.0f;
+        Vec3 slope = pattern_slope(&m, &p, clay_height, step);
+        Vec3 shown = pattern_slope(&m, &wide, clay_height, step);
+        Vec3 bump = pattern_bump(&m, &p, clay_height, step);
+        fine += (double)vec3_length(slope) / PLACES;
+        left_out += (double)vec3_length(bump) / PLACES;
+        off += (double)vec3_distance(vec3_add(bump, shown), slope) / PLACES;
+        p.coarsening = 1.0f;
+        assert_float_equal(vec3_length(pattern_bump(&m, &p, clay_height, step)), 0.0f, 0.0f);
+        p.displaced = 0.0f;
+        assert_float_equal(vec3_distance(pattern_bump(&m, &p, clay_height, step), slope), 0.0f,
+                           1e-6f);
+    }
+    print_message("slope %.3f, left out %.3f, off %.6f\n", fine, left_out, off);
+    assert_true(off < 1e-4 * fine);
+    assert_true(left_out > 0.2 * fine); // crumbs are finer than the geometry's edges
+}
+
 // Places of level ice where a pixel of this size (m) is seen.
 static SurfacePoint ice_at(int i, float footprint)
 {
@@ -1119,6 +1160,7 @@ int main(void)
         cmocka_unit_test(test_gnarled_bark_is_of_all_ages),
         cmocka_unit_test(test_birch_has_no_rings),
         cmocka_unit_test(test_birches_differ),
+        cmocka_unit_test(test_bumps_are_what_the_geometry_leaves_out),
         cmocka_unit_test(test_plates_slope),
         cmocka_unit_test(test_bark_without_branch),
         cmocka_unit_test(test_ground),

@@ -88,7 +88,8 @@ static float longest_edge(const void *user, const DicePoint *a, const DicePoint 
     return factor * rule->edge * pixel;
 }
 
-static float height_at(const void *user, const DicePoint *p, float *share)
+// The pattern is taken as of wider pixels where edges are longer, or its finest octaves alias.
+static float height_at(const void *user, const DicePoint *p, float coarsening, float *share)
 {
     const ReliefRule *rule = user;
     float pixel = rule->view->views->pixel_angle * nearest_eye(rule->view->views, p->position);
@@ -111,7 +112,7 @@ static float height_at(const void *user, const DicePoint *p, float *share)
                           .site = p->site,
                           .shore = p->shore,
                           .strata = rule->part->mesh->strata,
-                          .footprint = pixel,
+                          .footprint = coarsening * pixel,
                           .material = rule->part->material,
                           .object = rule->part->object};
     point.tangent_u = vec3_cross(p->along, p->normal);

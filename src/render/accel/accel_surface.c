@@ -110,6 +110,7 @@ static void undisplaced(const DicedMesh *diced, const Corners *c, float side, Su
     point->object_position = weighted(diced->mesh->position, c);
     point->smooth_normal = vec3_scale(vec3_normalize(weighted(diced->mesh->normal, c)), side);
     point->along = vec3_normalize(weighted(diced->along, c));
+    point->coarsening = diced->coarsening;
     for (int i = 0; i < 3; i++) {
         point->displaced += c->weight[i] * diced->share[c->vertex[i]];
     }

@@ -24,6 +24,27 @@ Vec3 pattern_slope(const Material *m, const SurfacePoint *point,
     return vec3_scale(vec3_sub(ahead, vec3_splat(here)), 1.0f / step);
 }
 
+SurfacePoint pattern_coarse_point(const SurfacePoint *point)
+{
+    SurfacePoint coarse = *point;
+    coarse.footprint *= fmaxf(1.0f, point->coarsening);
+    return coarse;
+}
+
+Vec3 pattern_bump(const Material *m, const SurfacePoint *point,
+                  float (*height)(const Material *, const SurfacePoint *, Vec3 p), float step)
+{
+    if (point->displaced >= 1.0f && point->coarsening <= 1.0f) {
+        return vec3_splat(0.0f);
+    }
+    Vec3 slope = pattern_slope(m, point, height, step), shown = slope;
+    if (point->displaced > 0.0f && point->coarsening > 1.0f) {
+        SurfacePoint coarse = pattern_coarse_point(point);
+        shown = pattern_slope(m, &coarse, height, step);
+    }
+    return vec3_madd(slope, -point->displaced, shown);
+}
+
 float pattern_detail(float wavelength, float footprint)
 {
     return 1.0f - smoothstepf(0.25f, 1.0f, footprint / wavelength);

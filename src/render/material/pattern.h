@@ -87,6 +87,13 @@ void pattern_sand(const Material *material, const SurfacePoint *point, PatternSh
 Vec3 pattern_slope(const Material *material, const SurfacePoint *point,
                    float (*height)(const Material *, const SurfacePoint *, Vec3 p), float step);
 
+// The gradient of what the geometry does not show of that relief.
+Vec3 pattern_bump(const Material *material, const SurfacePoint *point,
+                  float (*height)(const Material *, const SurfacePoint *, Vec3 p), float step);
+
+// The point as the geometry's relief was made: for the part of the slopes that it shows.
+SurfacePoint pattern_coarse_point(const SurfacePoint *point);
+
 // Noise summed over the octaves that the pixel resolves, and its gradient per metre.
 typedef struct PatternOctaves {
     float value;

@@ -381,13 +381,12 @@ static float height_near(const Material *m, const SurfacePoint *point, Vec3 p)
 
 void pattern_badlands(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    float flat = washes(m, point), height, bump = 1.0f - point->displaced;
+    float flat = washes(m, point), height;
     Ground g = {0}, floor = {0};
     g = flat < 1.0f ? wall(m, point, shade->color) : g;
     floor = flat > 0.0f ? silt(m, point, shade->color, &height) : floor;
     shade->color = ground_blend(g, &floor, flat).color;
-    if (m->pattern_depth > 0.0f && bump > 0.01f) {
-        Vec3 slope = pattern_slope(m, point, height_near, 0.004f);
-        shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, bump));
+    if (m->pattern_depth > 0.0f) {
+        shade->normal = pattern_tilt(shade->normal, pattern_bump(m, point, height_near, 0.004f));
     }
 }

@@ -255,13 +255,23 @@ static BarkSurface bark_at(const Material *m, const SurfacePoint *point, const S
     return bark;
 }
 
+static Vec3 slope_of(const BarkSurface *bark, const StemPlace *place)
+{
+    return vec3_madd(vec3_scale(place->u, bark->slope_u), bark->slope_v, place->v);
+}
+
 void pattern_bark(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     StemPlace place = place_of(m, point);
     BarkSurface bark = bark_at(m, point, &place, shade->color);
-    Vec3 slope = vec3_madd(vec3_scale(place.u, bark.slope_u), bark.slope_v, place.v);
+    Vec3 slope = slope_of(&bark, &place), shown = slope;
+    if (point->displaced > 0.0f && point->coarsening > 1.0f) {
+        SurfacePoint coarse = pattern_coarse_point(point);
+        BarkSurface of_geometry = bark_at(m, &coarse, &place, shade->color);
+        shown = slope_of(&of_geometry, &place);
+    }
     shade->color = bark.color;
-    shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, 1.0f - point->displaced));
+    shade->normal = pattern_tilt(shade->normal, vec3_madd(slope, -point->displaced, shown));
 }
 
 float pattern_bark_height(const Material *m, const SurfacePoint *point)

@@ -214,7 +214,7 @@ static Vec3 color_at(const Material *m, const SurfacePoint *point, Vec3 color, f
 
 void pattern_masonry(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
-    float scale = scale_of(m), bump = 1.0f - point->displaced;
+    float scale = scale_of(m), bare = 1.0f;
     Block block = block_at(m, point->object_position, surface_smooth_normal(point));
     float stone = lerpf(0.85f, stone_share(block.border, scale),
                         pattern_detail(0.3f * scale, point->footprint));
@@ -226,10 +226,10 @@ void pattern_masonry(const Material *m, const SurfacePoint *point, PatternShade 
     if (m->moss > 0.0f) {
         Overgrowth moss = moss_of(m, point, 1.0f - stone);
         shade->color = vec3_lerp(shade->color, moss.color, moss.share);
-        bump *= 1.0f - 0.7f * moss.share;
+        bare = 1.0f - 0.7f * moss.share;
     }
-    if (bump > 0.0f && m->pattern_depth > 0.0f) {
-        Vec3 slope = pattern_slope(m, point, relief_at, 0.02f * scale);
-        shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, bump));
+    if (m->pattern_depth > 0.0f) {
+        Vec3 slope = pattern_bump(m, point, relief_at, 0.02f * scale);
+        shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, bare));
     }
 }

@@ -284,7 +284,7 @@ static Vec3 stained(const Rubble *r, Vec3 p, Vec3 color)
 void pattern_rubble(const Material *m, const SurfacePoint *point, PatternShade *shade)
 {
     Vec3 p = point->object_position;
-    float bump = 1.0f - point->displaced;
+    float bare = 1.0f;
     Rubble r = rubble_at(m, point, p);
     Vec3 color =
         vec3_lerp(mortar_color(m, &r, p), stone_color(m, shade->color, &r.stone, point), r.share);
@@ -298,10 +298,10 @@ void pattern_rubble(const Material *m, const SurfacePoint *point, PatternShade *
     if (m->moss > 0.0f) {
         Overgrowth moss = moss_of(m, point, 1.0f - r.share);
         shade->color = vec3_lerp(shade->color, moss.color, moss.share);
-        bump *= 1.0f - 0.7f * moss.share;
+        bare = 1.0f - 0.7f * moss.share;
     }
-    if (bump > 0.0f && m->pattern_depth > 0.0f) {
-        Vec3 slope = pattern_slope(m, point, relief_at, 0.001f);
-        shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, bump));
+    if (m->pattern_depth > 0.0f) {
+        Vec3 slope = pattern_bump(m, point, relief_at, 0.001f);
+        shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, bare));
     }
 }

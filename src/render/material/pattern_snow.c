@@ -143,9 +143,8 @@ void pattern_snow(const Material *m, const SurfacePoint *point, PatternShade *sh
     shade->color =
         vec3_lerp(shade->color, m->color2, clampf(0.4f + 0.4f * grain.value, 0.0f, 1.0f));
     Vec3 slope = vec3_scale(grain.slope, 0.0009f);
-    if (point->displaced < 1.0f && m->pattern_depth > 0.0f) {
-        Vec3 relief = pattern_slope(m, point, relief_at, 0.004f * length_of(m));
-        slope = vec3_madd(slope, 1.0f - point->displaced, relief);
+    if (m->pattern_depth > 0.0f) {
+        slope = vec3_add(slope, pattern_bump(m, point, relief_at, 0.004f * length_of(m)));
     }
     shade->normal = pattern_tilt(shade->normal, slope);
 }

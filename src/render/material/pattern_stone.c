@@ -163,7 +163,6 @@ void pattern_stone(const Material *m, const SurfacePoint *point, PatternShade *s
 {
     float joint = broken_at(point->object_position, scale_of(m), point->footprint).joint;
     shade->color = minerals(m, point, shade->color, joint);
-    float bump = 1.0f - point->displaced;
     bool mossy = false;
     if (m->lichen > 0.0f) {
         Overgrowth lichen = lichen_at(m->lichen, point);
@@ -174,9 +173,9 @@ void pattern_stone(const Material *m, const SurfacePoint *point, PatternShade *s
         shade->color = vec3_lerp(shade->color, moss.color, moss.share);
         mossy = moss.share > 0.0f;
     }
-    if (bump > 0.0f && (m->pattern_depth > 0.0f || mossy)) {
+    if (m->pattern_depth > 0.0f || mossy) {
         Vec3 slope =
-            pattern_slope(m, point, mossy ? mossy_relief_at : relief_at, 0.01f * scale_of(m));
-        shade->normal = pattern_tilt(shade->normal, vec3_scale(slope, bump));
+            pattern_bump(m, point, mossy ? mossy_relief_at : relief_at, 0.01f * scale_of(m));
+        shade->normal = pattern_tilt(shade->normal, slope);
     }
 }
