@@ -286,7 +286,8 @@ static const Key MATERIAL_KEYS[] = {
             "parrotfish; snow: how many of the tracks of a fox there are, at most one in 11 m."},
     {KEY_OF(Material, ribs, "ribs", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern bark: depth of ribs along a thick stem, 1 = half of its radius; only where it "
-            "is displaced."},
+            "is displaced; snow: how deep the wind has cut sastrugi into it, 1 = 0.2 of "
+            "pattern_depth; 0 = not at all."},
     {KEY_OF(Material, hollows, "hollows", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern bark: how many holes rot has left in a thick stem; deep only where it is "
             "displaced."},

@@ -321,6 +321,69 @@ static void a_level_sheet_bears_its_depth(void **state)
     mesh_free(mesh);
 }
 
+// Variance (m2) of the upper side's heights well inside of its rim.
+static double unevenness_of(const Mesh *mesh)
+{
+    double sum = 0.0, squares = 0.0;
+    int64_t count = 0;
+    for (int64_t i = 0; i < mesh->vertex_count; i++) {
+        Vec3 p = mesh->position[i];
+        if (mesh->normal[i].y > 0.0f && fabsf(p.x) < 0.15f && fabsf(p.z) < 0.15f) {
+            sum += (double)p.y;
+            squares += (double)p.y * (double)p.y;
+            count++;
+        }
+    }
+    return squares / (double)count - sum * sum / ((double)count * (double)count);
+}
+
+// Area (m2) of a closed mesh without overhangs seen from above.
+static double footprint(const Mesh *mesh)
+{
+    double sum = 0.0;
+    for (int64_t f = 0; f < mesh->face_count; f++) {
+        const uint32_t *corner = mesh->index + 3 * f;
+        Vec3 a = mesh->position[corner[0]];
+        Vec3 across = vec3_cross(vec3_sub(mesh->position[corner[1]], a),
+                                 vec3_sub(mesh->position[corner[2]], a));
+        sum += 0.25 * (double)fabsf(across.y);
+    }
+    return sum;
+}
+
+// Frayed pillows are closed, too, reach no further out than smooth ones and have bays in their
+// rims; they are uneven and yet of much the same depth.
+static void frayed_snow_is_uneven_with_bays_in_its_rim(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        const float depth[] = {0.05f, 0.12f, 0.6f};
+        double area[2], uneven[2], mean[2];
+        for (int frayed = 0; frayed < 2; frayed++) {
+            Bearers on = {0};
+            add_sheet(&on, vec3(0, 1, 0), 0.6f, 0.6f, 0.0f);
+            SnowParams params = calm(depth[k], 0.0f, 0.1f);
+            params.fray = (float)frayed;
+            Mesh *mesh = pillows(on, params, &OPEN);
+            assert_true(bodies(mesh) >= 1);
+            for (int64_t i = 0; i < mesh->vertex_count; i++) {
+                assert_true(vec3_finite(mesh->position[i]) && vec3_finite(mesh->normal[i]));
+            }
+            area[frayed] = footprint(mesh);
+            uneven[frayed] = unevenness_of(mesh);
+            mean[frayed] = volume(mesh) / area[frayed];
+            assert_true(mesh_bounds(mesh).high.x < 0.33f + 0.16f * depth[k]);
+            mesh_free(mesh);
+        }
+        print_message("depth %.2f: area %.2f, variance %.1f, mean depth %.2f of the smooth one's\n",
+                      (double)depth[k], area[1] / area[0], uneven[1] / uneven[0],
+                      mean[1] / mean[0]);
+        assert_true(area[1] > 0.75 * area[0] && area[1] < 0.98 * area[0]);
+        assert_true(uneven[1] > 1.3 * uneven[0]);
+        assert_true(mean[1] > 0.8 * mean[0] && mean[1] < 1.25 * mean[0]);
+    }
+}
+
 // The crumbs on the bearers, which are freed. *volume: of the pillows beside them.
 static SnowCrumbs crumbs_on(Bearers on, SnowParams params, const SnowReach *reach, double *body)
 {
@@ -445,6 +508,7 @@ int main(void)
         cmocka_unit_test(deeper_snow_has_more_volume),
         cmocka_unit_test(snow_spans_what_it_can_bridge),
         cmocka_unit_test(a_level_sheet_bears_its_depth),
+        cmocka_unit_test(frayed_snow_is_uneven_with_bays_in_its_rim),
         cmocka_unit_test(crumbs_lie_beside_pillows),
         cmocka_unit_test(scattered_needles_bear_no_spikes),
         cmocka_unit_test(steep_and_sheltered_boughs_bear_none),

@@ -1008,6 +1008,42 @@ static void test_bumps_are_what_the_geometry_leaves_out(void **state)
     assert_true(left_out > 0.2 * fine); // crumbs are finer than the geometry's edges
 }
 
+// The wind cuts sastrugi that are steep against it and flat in the lee, about the old surface.
+static void test_sastrugi(void **state)
+{
+    (void)state;
+    enum { PLACES = 40000 };
+    const float depth = 0.3f, step = 0.01f;
+    Material plain = material_default(MATERIAL_DIFFUSE);
+    plain.pattern = PATTERN_SNOW;
+    plain.pattern_depth = depth;
+    Material cut = plain;
+    cut.ribs = 1.0f;
+    double mean = 0.0, squares = 0.0, cubes = 0.0, across = 0.0;
+    for (int i = 0; i < PLACES; i++) {
+        SurfacePoint p = {.normal = vec3(0, 1, 0), .footprint = 1e-3f};
+        p.object_position = random_point((uint64_t)i, 20.0f);
+        SurfacePoint lee = p, aside = p;
+        lee.object_position = vec3_madd(p.object_position, step, vec3(0.83f, 0.0f, 0.56f));
+        aside.object_position = vec3_madd(p.object_position, step, vec3(-0.56f, 0.0f, 0.83f));
+        float here = pattern_height(&cut, &p) - pattern_height(&plain, &p);
+        float rise = pattern_height(&cut, &lee) - pattern_height(&plain, &lee) - here;
+        float beside = pattern_height(&cut, &aside) - pattern_height(&plain, &aside) - here;
+        double slope = (double)(rise / step), flank = (double)(beside / step);
+        assert_true(fabsf(here) < 0.11f * depth);
+        mean += (double)here / PLACES;
+        squares += slope * slope / PLACES;
+        cubes += slope * slope * slope / PLACES;
+        across += flank * flank / PLACES;
+    }
+    double skewness = cubes / (squares * sqrt(squares));
+    print_message("mean %.4f, slope along the wind %.3f, skewness %.2f, across it %.3f\n", mean,
+                  sqrt(squares), skewness, sqrt(across));
+    assert_true(fabs(mean) < 0.02 * (double)depth);
+    assert_true(skewness > 1.0);
+    assert_true(across > 2.0 * squares);
+}
+
 // Places of level ice where a pixel of this size (m) is seen.
 static SurfacePoint ice_at(int i, float footprint)
 {
@@ -1181,6 +1217,7 @@ int main(void)
         cmocka_unit_test(test_noise_pattern),
         cmocka_unit_test(test_noise_tints_light_that_passes_a_leaf),
         cmocka_unit_test(test_snow),
+        cmocka_unit_test(test_sastrugi),
         cmocka_unit_test(test_ice),
         cmocka_unit_test(test_ice_is_dull_in_patches),
     };

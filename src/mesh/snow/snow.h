@@ -12,6 +12,7 @@ typedef struct SnowParams {
     float gaps;     // 0..1: share of the branches that have lost theirs
     float bridging; // m: widest gap between twigs or needles that snow spans
     float crumbs;   // m: largest crumb on needles outside of pillows; 0 = none
+    float fray;     // 0..1: how far pillows follow single twigs and needles; 0 = smooth
 } SnowParams;
 
 // Which share (0..1) of the snow comes to p.
@@ -61,9 +62,10 @@ void snow_pile_clear(SnowPile *pile);
 
 // Adds the pillows on one bough: closed bodies of triangles that face outward, params->depth deep
 // on wide level places that snow reaches, as thick as half their width on narrow ones, with round
-// rims that overhang a little. Snow settles first on the highest bearers, then on those far below
-// its surface. The bearers are reordered. seed: of lumps and gaps. With params->crumbs, crumbs lie
-// on the topmost bearers outside.
+// rims that overhang a little; with params->fray these are ragged, and the surface is as uneven as
+// the twigs below and the clods that fell on it. Snow settles first on the highest bearers, then on
+// those far below its surface. The bearers are reordered. seed: of lumps and gaps. With
+// params->crumbs, crumbs lie on the topmost bearers outside.
 bool snow_add_pillows(SnowPile *pile, SnowBearer *bearer, int64_t count, const SnowParams *params,
                       const SnowReach *reach, uint64_t seed, Error *e);
 

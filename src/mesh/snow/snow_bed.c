@@ -8,11 +8,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { STREAM_GAPS = 1, STREAM_LUMPS = 2 }; // of a bough
-enum { BORDER = 4, MOST_ACROSS = 400, ROUNDINGS = 3 };
+enum { STREAM_GAPS = 1, STREAM_LUMPS = 2, STREAM_RIM = 3, STREAM_CLODS = 4 }; // of a bough
+enum { BORDER = 4, REACH = 3, MOST_ACROSS = 400, ROUNDINGS = 3 };
 
 #define CELL_LEAST 0.008f // m
 #define CELL_MOST 0.045f
+#define CELL_FRAYED 0.02f // at most, of frayed snow
 #define CELL_DEPTH 0.3f   // cell, in depths
 #define BEARS 0.12f       // share of a cell that must be covered to bear snow
 #define SHARE_LEAST 0.18f // of the depth: thinner snow is left out
@@ -21,6 +22,10 @@ enum { BORDER = 4, MOST_ACROSS = 400, ROUNDINGS = 3 };
 #define OVERHANG 0.16f    // of the rim, in depths
 #define GAP_LENGTH 0.35f  // m, about, of a gap
 #define LUMP_LENGTH 3.2f  // of a lump, in depths
+#define RIM_LENGTH 0.13f  // m, about, of a tongue or bay of a frayed rim; smaller ones on it
+#define RIM_DEPTH 0.055f  // m, about half of their length across it
+#define CLOD_LENGTH 0.1f  // m, of a clod on frayed snow; smaller ones on it
+#define CLOD_HEIGHT 0.5f
 #define LUMP_HEIGHT 0.55f // how far lumps differ from the mean, by a noise of about -0.7 .. 0.7
 
 void snow_bed_clear(SnowBed *bed)
@@ -48,6 +53,19 @@ bool snow_bed_passes(const SnowBed *bed, Vec3 p)
     return p.y < bed->highest[snow_bed_entry(bed, p)] - SNOW_STEP;
 }
 
+// How far (m) the outline may lie outside of the bearers.
+static float most_outside(const SnowParams *params)
+{
+    return OVERHANG * params->depth + 0.1f * params->fray * RIM_DEPTH;
+}
+
+// Two octaves of noise: about -0.7 .. 0.7.
+static float octaves(Vec3 p, float length, uint64_t key)
+{
+    float x = p.x / length, z = p.z / length;
+    return noise_plane(x, z, key) + 0.5f * noise_plane(2.3f * x, 2.3f * z, random_key(key, 1));
+}
+
 // A grid that leaves room for the overhang and for what bridging does near the border.
 static bool lay_out(SnowBed *bed, const SnowBearer *bearer, int64_t count, const SnowParams *params,
                     Error *e)
@@ -58,9 +76,10 @@ static bool lay_out(SnowBed *bed, const SnowBearer *bearer, int64_t count, const
     }
     Vec3 size = vec3_sub(box.high, box.low);
     float widest = fmaxf(size.x, size.z);
-    float cell =
-        fmaxf(clampf(CELL_DEPTH * params->depth, CELL_LEAST, CELL_MOST), widest / MOST_ACROSS);
-    int border = BORDER + (int)(params->bridging / cell);
+    float most = lerpf(CELL_MOST, CELL_FRAYED, params->fray);
+    float cell = fmaxf(clampf(CELL_DEPTH * params->depth, CELL_LEAST, most), widest / MOST_ACROSS);
+    int border =
+        BORDER + (int)(params->bridging / cell) + (int)(params->fray * most_outside(params) / cell);
     *bed = (SnowBed){.across = 1 + 2 * border + (int)(size.x / cell + 0.5f),
                      .along = 1 + 2 * border + (int)(size.z / cell + 0.5f),
                      .cell = cell,
@@ -231,6 +250,10 @@ static float unevenness(const SnowParams *params, Vec3 p, uint64_t seed)
         float edge = -0.5f + params->gaps;
         gap = smoothstepf(edge - 0.08f, edge + 0.08f, wave);
     }
+    if (params->fray > 0.0f) {
+        float clod = octaves(p, CLOD_LENGTH, random_key(seed, STREAM_CLODS));
+        gap *= 1.0f + CLOD_HEIGHT * params->fray * clod;
+    }
     return gap * (1.0f + LUMP_HEIGHT * lump);
 }
 
@@ -259,11 +282,12 @@ static void set_surface(SnowBed *bed, const SnowParams *params, const SnowReach 
 
 // Rims reach out over points that no bearer is near: the surface goes on there as it is beside
 // them.
-static void extend_surface(SnowBed *bed)
+static void extend_surface(SnowBed *bed, const SnowParams *params)
 {
-    enum { REACH = 3 }; // points, as far as overhang and rounding move the outline
+    // points, as far as overhang and rounding move the outline
+    int reach = REACH + (int)(params->fray * most_outside(params) / bed->cell);
     const int64_t beside[4] = {-1, 1, -bed->across, bed->across};
-    for (int turn = 0; turn < REACH; turn++) {
+    for (int turn = 0; turn < reach; turn++) {
         for (int64_t i = bed->across; i < point_count(bed) - bed->across; i++) {
             for (int n = 0; n < 4 && isnan(bed->height[i]); n++) {
                 bed->height[i] = bed->height[i + beside[n]];
@@ -307,6 +331,17 @@ typedef struct Room {
     int32_t *stack;
 } Room;
 
+// Bays of the rim, which none of the rounding takes away; tongues would hang like cloth.
+static void fray_outline(SnowBed *bed, float fray, uint64_t seed)
+{
+    for (int64_t i = 0; i < point_count(bed); i++) {
+        int64_t x = i % bed->across, z = i / bed->across;
+        Vec3 p = vec3(bed->low_x + (float)x * bed->cell, 0.0f, bed->low_z + (float)z * bed->cell);
+        float wave = octaves(p, RIM_LENGTH, random_key(seed, STREAM_RIM));
+        bed->outline[i] += fray * RIM_DEPTH * clampf(1.4f * wave - 0.2f, -1.0f, 0.1f);
+    }
+}
+
 // Signed distances to the border of what is inside, rounded.
 static bool set_outline(SnowBed *bed, const bool *inside, float overhang, const Room *room,
                         Error *e)
@@ -338,10 +373,14 @@ static bool shape(SnowBed *bed, const SnowBearer *bearer, int64_t count, const S
         return false;
     }
     set_surface(bed, params, reach, seed, room->inside, room->top);
-    extend_surface(bed);
+    extend_surface(bed, params);
     drop_specks(bed, room->inside, room->stack, room->seen);
     filter(bed, bed->share, mean_of, 1, room->line);
-    return set_outline(bed, room->inside, OVERHANG * params->depth, room, e);
+    bool done = set_outline(bed, room->inside, OVERHANG * params->depth, room, e);
+    if (done && params->fray > 0.0f) {
+        fray_outline(bed, params->fray, seed);
+    }
+    return done;
 }
 
 static void room_clear(Room *room)

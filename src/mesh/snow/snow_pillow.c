@@ -15,6 +15,7 @@
 enum { SWEEPS = 40, MOST_LAYERS = 4 };
 
 #define RELAXATION 1.4f
+#define RESOLVED 7.0f // cells of the depth from which on more sweeps are needed
 #define NEAREST 0.05f // of a cell: how near the outline may pass by a point
 #define BELOW 0.6f    // share of the snow that comes to what lies below a pillow
 #define SAG 0.25f     // how far snow reaches down between what bears it, in thicknesses
@@ -61,7 +62,8 @@ float *snow_thickness(const SnowBed *bed, float depth, Error *e)
         float far = bed->outline[i] / bed->cell;
         thick[i] = far > 0.0f ? fminf(1.0f / screen, 0.7f * cells * far) : 0.0f;
     }
-    for (int sweep = 0; thick && sweep < SWEEPS; sweep++) {
+    int sweeps = (int)((float)SWEEPS * fmaxf(1.0f, cells / RESOLVED));
+    for (int sweep = 0; thick && sweep < sweeps; sweep++) {
         for (int64_t i = 0; i < count; i++) {
             if (bed->outline[i] > 0.0f) {
                 relax(bed, thick, i, screen, 1.0f);

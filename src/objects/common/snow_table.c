@@ -19,6 +19,10 @@ static const Key SNOW_KEYS[] = {
      .doc = "Size of the largest crumbs of snow that lie on needles and twigs beside the pillows "
             "and fray their rims, of plants with sprays: 0.02 to 0.04 where a tree is seen from "
             "near; 0 = none."},
+    {KEY_OF(SnowParams, fray, "fray", KEY_FLOAT), .high = 1,
+     .doc = "How uneven pillows on boughs are: 0 = smooth, for trees far away; 1 = their surface "
+            "shows twigs and clods and their rims are ragged, in twice as fine a mesh, for trees "
+            "that are seen from near."},
     {0},
 };
 
