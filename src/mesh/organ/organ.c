@@ -72,10 +72,12 @@ void organ_sheet(Quads *quads, const float *length, const float *half, const flo
 static void add_one(OrganBuild *build, uint64_t seed)
 {
     static void (*const add[])(OrganBuild *, uint64_t) = {
-        [ORGAN_BLOSSOM] = organ_blossom, [ORGAN_CATKIN] = organ_catkin, [ORGAN_FRUIT] = organ_fruit,
-        [ORGAN_CONE] = organ_cone,       [ORGAN_ACORN] = organ_acorn,   [ORGAN_HUSK] = organ_husk,
-        [ORGAN_BUD] = organ_bud,         [ORGAN_SAMARA] = organ_samara, [ORGAN_THORN] = organ_thorn,
-        [ORGAN_DAISY] = organ_daisy,     [ORGAN_BELL] = organ_bell};
+        [ORGAN_BLOSSOM] = organ_blossom, [ORGAN_CATKIN] = organ_catkin,
+        [ORGAN_FRUIT] = organ_fruit,     [ORGAN_CONE] = organ_cone,
+        [ORGAN_ACORN] = organ_acorn,     [ORGAN_HUSK] = organ_husk,
+        [ORGAN_BUD] = organ_bud,         [ORGAN_SAMARA] = organ_samara,
+        [ORGAN_THORN] = organ_thorn,     [ORGAN_DAISY] = organ_daisy,
+        [ORGAN_BELL] = organ_bell,       [ORGAN_WATER_LILY] = organ_water_lily};
     add[build->params->kind](build, seed);
 }
 
