@@ -37,7 +37,7 @@ static Vec3 pad_point(const Pad *pad, float along, float across, Vec2 *uv)
     exact_sincos(across * (180.0f - notch) * RADIANS_PER_DEGREE, &sine, &cosine);
     float corner = 1.0f - fminf(from_edge / CORNER, 1.0f);
     float reach = along * (1.0f - ROUNDED * corner * corner) *
-                  (1.0f + 0.06f * around(pad, STREAM_RIM, 9.0f, sine, cosine));
+                  (0.96f + 0.038f * around(pad, STREAM_RIM, 9.0f, sine, cosine));
     // The rim bends up along an arc where it does.
     float turned = smoothstepf(-0.12f, 0.3f, around(pad, STREAM_TURNED, 5.0f, sine, cosine));
     float outer = fmaxf(along - (1.0f - RIM), 0.0f) / RIM;

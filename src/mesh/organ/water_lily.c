@@ -100,7 +100,8 @@ static float leaning(float wide, float inner)
 }
 
 // A sepal is white inside and green outside: two sheets.
-static void add_sepals(OrganBuild *build, float open, float bend, float cup, uint64_t seed)
+static void add_sepals(OrganBuild *build, float open, float bend, float cup, float width,
+                       uint64_t seed)
 {
     const OrganParams *p = build->params;
     for (int i = 0; i < SEPALS; i++) {
@@ -109,7 +110,7 @@ static void add_sepals(OrganBuild *build, float open, float bend, float cup, uin
             360.0f * (float)i / SEPALS + random_range(random_key(key, STREAM_TURN), -9.0f, 9.0f);
         Boat sepal = {.length =
                           p->length * random_range(random_key(key, STREAM_SIZE), 0.92f, 1.02f),
-                      .width = 1.05f * p->width,
+                      .width = width * p->width,
                       .base = 0.5f,
                       .widest = 0.45f,
                       .bend = bend + random_range(random_key(key, STREAM_BEND), -8.0f, 8.0f),
@@ -202,10 +203,10 @@ static void add_closed(OrganBuild *build, uint64_t seed)
     float length = 0.86f * p->length;
     Vec2 egg[RINGS];
     for (int i = 0; i < RINGS; i++) {
-        egg[i] = (Vec2){0.25f * length * round[i], length * share[i]};
+        egg[i] = (Vec2){0.2f * length * round[i], length * share[i]};
     }
     quads_revolve(&build->tissue[TISSUE_PETAL], egg, RINGS, p->detail > 1 ? 16 : 6);
-    add_sepals(build, 22.0f, 44.0f, 0.75f, seed);
+    add_sepals(build, 20.0f, 44.0f, 0.5f, 1.3f, seed);
 }
 
 void organ_water_lily(OrganBuild *build, uint64_t seed)
@@ -217,7 +218,7 @@ void organ_water_lily(OrganBuild *build, uint64_t seed)
     }
     float young = random_unit(random_key(seed, STREAM_STAGE));
     float wide = p->open * (1.0f - 0.4f * young * young * young);
-    add_sepals(build, fminf(leaning(wide, 0.0f) + 7.0f, 90.0f), 16.0f, 0.35f, seed);
+    add_sepals(build, fminf(leaning(wide, 0.0f) + 7.0f, 90.0f), 16.0f, 0.35f, 1.05f, seed);
     add_petals(build, wide, seed);
     add_stamens(build, wide, seed);
     add_middle(build);
