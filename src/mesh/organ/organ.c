@@ -109,7 +109,8 @@ static bool is_plain(const OrganParams *p)
 // Radius of a cluster's stalks, m.
 static float stalk_radius(const OrganParams *p)
 {
-    return fmaxf((p->kind == ORGAN_BELL ? 0.075f : 0.03f) * p->width, 0.0004f);
+    float share = p->kind == ORGAN_BELL ? 0.075f : p->kind == ORGAN_WATER_LILY ? 0.14f : 0.03f;
+    return fmaxf(share * p->width, 0.0004f);
 }
 
 // The frame of a member at the end of its stalk, which it adds.

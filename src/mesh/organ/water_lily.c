@@ -96,7 +96,7 @@ static Vec3 foot(const OrganParams *p, float inner, float turn)
 // Degrees from upright of the parts at `inner` 0..1 of a flower that is `wide` open.
 static float leaning(float wide, float inner)
 {
-    return lerpf(14.0f + 68.0f * wide, 4.0f + 32.0f * wide, inner);
+    return lerpf(14.0f + 68.0f * wide, 4.0f + 42.0f * wide, inner);
 }
 
 // A sepal is white inside and green outside: two sheets.
@@ -160,7 +160,7 @@ static void add_stamens(OrganBuild *build, float wide, uint64_t seed)
         float inner = ((float)i + 0.5f) / (float)stamens;
         float turn =
             (float)i * ORGAN_DIVERGENCE + random_range(random_key(key, STREAM_TURN), -9.0f, 9.0f);
-        Boat stamen = {.length = p->length * lerpf(0.55f, 0.32f, inner) *
+        Boat stamen = {.length = p->length * lerpf(0.6f, 0.36f, inner) *
                                  random_range(random_key(key, STREAM_SIZE), 0.86f, 1.08f),
                        .width = p->length * lerpf(0.085f, 0.035f, fminf(2.0f * inner, 1.0f)),
                        .base = 0.7f,
