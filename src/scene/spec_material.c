@@ -147,6 +147,10 @@ static const Key MATERIAL_KEYS[] = {
      .high = 1,
      .doc = "Reflectance of a leaf just out of its bud (leaves.flush, leaves.emergence), reddish "
             "of many plants; its transmittance follows. Black = paler than the full-grown leaf."},
+    {KEY_OF(Material, underside_color, "underside_color", KEY_COLOR), .kinds = BIT(MATERIAL_LEAF),
+     .high = 1,
+     .doc = "Reflectance of a leaf's lower side: reddish of water lilies, nearly white of white "
+            "poplar. Black = paler and greyer than the upper side."},
     {KEY_OF(Material, faded_color, "faded_color", KEY_COLOR), .kinds = BIT(MATERIAL_LEAF),
      .high = 1,
      .doc = "Reflectance of a leaf's tissue that has lost its green (venation.autumn and spots), "
@@ -302,6 +306,10 @@ static const Key MATERIAL_KEYS[] = {
     {KEY_OF(Material, veins, "veins", KEY_FLOAT), .kinds = PATTERNED, .high = 60,
      .doc = "Pattern leaf: side veins on each half of a blade, lobe or leaflet; 0 = veins that run "
             "along it, as of grasses, palms, ginkgo."},
+    {KEY_OF(Material, rays, "rays", KEY_FLOAT), .kinds = PATTERNED, .high = 60,
+     .doc =
+         "Pattern leaf: veins that radiate from the stalk's end of a pad (leaves.shape) and fork "
+         "toward its rim, in place of a midrib and its side veins; 0 = none do."},
     {KEY_OF(Material, pale_veins, "pale_veins", KEY_FLOAT), .kinds = PATTERNED, .high = 1,
      .doc = "Pattern leaf: how much paler than the blade its veins are from above, with a light "
             "band along them: 0 = little, 1 = nearly white, as on old ivy."},

@@ -34,7 +34,7 @@ static LeafParams flat(LeafShape shape, float length, float width)
 static int all_forms(LeafParams *form)
 {
     int n = 0;
-    for (int shape = LEAF_OAK; shape <= LEAF_FAN; shape++) {
+    for (int shape = LEAF_OAK; shape <= LEAF_PAD; shape++) {
         form[n] = flat((LeafShape)shape, 0.09f, 0.06f);
         form[n].lobes = shape == LEAF_PALMATE ? 5 : shape == LEAF_OAK ? 4 : 0;
         form[n].lobe_depth = 0.45f;
@@ -167,6 +167,49 @@ static void blades_have_the_size_asked_for(void **state)
         }
         mesh_free(mesh);
     }
+}
+
+// A flat pad is an ellipse about the end of its stalk, less a notch of up to 30 degrees to it.
+static void pads_are_round_with_a_notch(void **state)
+{
+    (void)state;
+    LeafParams form = flat(LEAF_PAD, 0.22f, 0.2f);
+    for (uint64_t seed = 1; seed < 20; seed++) {
+        for (form.detail = 1; form.detail <= 3; form.detail++) {
+            Mesh *mesh = leaf_mesh_new(&form, seed, NULL);
+            Aabb box = mesh_bounds(mesh);
+            assert_true(box.high.x <= 0.1f && box.low.x >= -0.1f && box.high.y <= 0.11f);
+            assert_true(box.high.x > 0.08f && box.low.x < -0.08f && box.high.y > 0.095f);
+            double least, share = area(mesh, &least) / (3.14159265 * 0.1 * 0.11);
+            assert_true(share > 0.75 && share < 0.96);
+            for (int64_t v = 0; v < mesh->vertex_count; v++) {
+                Vec3 p = mesh->position[v];
+                bool notch = p.y < 0.0f && fabsf(p.x) < 0.008f * -p.y;
+                assert_false(notch && p.y < -0.002f);
+            }
+            mesh_free(mesh);
+        }
+    }
+}
+
+// A pad's rim alone bends up, and no farther than an arc of that angle does.
+static void rims_of_pads_turn_up(void **state)
+{
+    (void)state;
+    LeafParams form = flat(LEAF_PAD, 0.2f, 0.2f);
+    form.detail = 3;
+    form.curl = 60.0f;
+    Mesh *mesh = leaf_mesh_new(&form, 5, NULL);
+    float highest = 0.0f;
+    for (int64_t v = 0; v < mesh->vertex_count; v++) {
+        Vec3 p = mesh->position[v];
+        float lobe = 0.02f * form.width; // one side of the notch lies above the other
+        bool inside = sqrtf(p.x * p.x + p.y * p.y) < 0.07f;
+        assert_true(!inside || fabsf(p.z) < lobe);
+        highest = fmaxf(highest, p.z);
+    }
+    assert_true(highest > 0.006f && highest < 0.016f);
+    mesh_free(mesh);
 }
 
 // Closed form: the margin is widest where asked for, monotone to both ends, and 0 there.
@@ -376,6 +419,8 @@ int main(void)
         cmocka_unit_test(coarse_forms_keep_the_area_with_fewer_quads),
         cmocka_unit_test(coarse_needles_are_off_by_half_their_width),
         cmocka_unit_test(blades_have_the_size_asked_for),
+        cmocka_unit_test(pads_are_round_with_a_notch),
+        cmocka_unit_test(rims_of_pads_turn_up),
         cmocka_unit_test(margins_are_widest_where_they_should_be),
         cmocka_unit_test(an_ovate_blade_has_the_area_of_its_outline),
         cmocka_unit_test(an_edge_has_as_many_teeth_as_asked_for),

@@ -309,6 +309,60 @@ static void a_fruit_is_an_ellipsoid(void **state)
     clear(mesh);
 }
 
+// Largest distance of the mesh's vertices from +Y above this height, m.
+static float reach_above(const Mesh *mesh, float low)
+{
+    return reach_of(mesh, low, INFINITY);
+}
+
+// A water lily opens: petals spread as far as they are long, stamens stay within them, sepals lie
+// below; its bud is an egg that sepals hold, without stamens.
+static void water_lilies_open(void **state)
+{
+    (void)state;
+    OrganParams params = plain(ORGAN_WATER_LILY);
+    params.length = 0.06f;
+    params.width = 0.024f;
+    params.stalk = 0.0f;
+    params.petals = 24;
+    for (params.detail = 1; params.detail <= 2; params.detail++) {
+        Mesh *shut[TISSUES], *open[TISSUES], *bud[TISSUES];
+        params.buds = params.open = 0.0f;
+        make(&params, shut);
+        params.open = 1.0f;
+        make(&params, open);
+        params.buds = 1.0f;
+        make(&params, bud);
+        float wide = reach_above(open[TISSUE_PETAL], -1.0f);
+        assert_true(wide > 0.8f * params.length && wide < 1.15f * params.length);
+        assert_true(reach_above(shut[TISSUE_PETAL], -1.0f) < 0.8f * wide);
+        assert_true(reach_above(open[TISSUE_ANTHER], -1.0f) < 0.75f * wide);
+        assert_true(mesh_bounds(open[TISSUE_GREEN]).low.y < mesh_bounds(open[TISSUE_PETAL]).low.y);
+        assert_null(bud[TISSUE_ANTHER]);
+        assert_true(reach_above(bud[TISSUE_GREEN], -1.0f) < 0.45f * wide);
+        clear(shut);
+        clear(open);
+        clear(bud);
+    }
+}
+
+// As many petals as asked for, within four sepals that are white inside.
+static void water_lilies_have_their_petals(void **state)
+{
+    (void)state;
+    OrganParams params = plain(ORGAN_WATER_LILY);
+    int64_t faces[3];
+    for (int i = 0; i < 3; i++) {
+        Mesh *mesh[TISSUES];
+        params.petals = 10 + 8 * i;
+        make(&params, mesh);
+        faces[i] = mesh[TISSUE_PETAL]->face_count;
+        clear(mesh);
+    }
+    assert_int_equal(faces[2] - faces[1], faces[1] - faces[0]);
+    assert_int_equal(8 * faces[0], (10 + 4) * (faces[1] - faces[0]));
+}
+
 static OrganParams bell(void)
 {
     OrganParams params = plain(ORGAN_BELL);
@@ -318,12 +372,6 @@ static OrganParams bell(void)
     params.petals = 6;
     params.open = 0.0f;
     return params;
-}
-
-// Largest distance of the mesh's vertices from +Y above this height, m.
-static float reach_above(const Mesh *mesh, float low)
-{
-    return reach_of(mesh, low, INFINITY);
 }
 
 // Closed tips end a tube as wide as asked for and as long as its petals; open ones curl out and
@@ -460,6 +508,8 @@ int main(void)
         cmocka_unit_test(a_fruit_is_an_ellipsoid),
         cmocka_unit_test(cones_open),
         cmocka_unit_test(bells_curl_back),
+        cmocka_unit_test(water_lilies_open),
+        cmocka_unit_test(water_lilies_have_their_petals),
         cmocka_unit_test(the_last_bells_are_buds),
         cmocka_unit_test(racemes_arch_and_nod),
     };

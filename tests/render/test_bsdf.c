@@ -520,6 +520,24 @@ static void test_leaf_sides(void **state)
     material_set_free(set);
 }
 
+// A colour of its own shows from below alone.
+static void test_leaf_underside(void **state)
+{
+    (void)state;
+    Material m[2] = {material_default(MATERIAL_LEAF), material_default(MATERIAL_LEAF)};
+    m[1].underside_color = vec3(0.3f, 0.05f, 0.04f);
+    MaterialSet *set = material_set_new(m, NULL, 2, NULL, NULL);
+    SurfacePoint above = flat_point(false), below = flat_point(true);
+    Vec3 wo = at_cosine(0.8f, 0.0f);
+    Bsdf plain = bsdf_at(set, &above, wo);
+    above.material = below.material = 1;
+    Bsdf upper = bsdf_at(set, &above, wo), under = bsdf_at(set, &below, wo);
+    assert_memory_equal(&upper.color, &plain.color, sizeof plain.color);
+    assert_float_equal(under.color.x, 0.3f, 1e-6f);
+    assert_float_equal(under.color.y, 0.05f, 1e-6f);
+    material_set_free(set);
+}
+
 static void test_emission_and_glass_body(void **state)
 {
     (void)state;
@@ -559,6 +577,7 @@ int main(void)
         cmocka_unit_test(test_transmission_reciprocity),
         cmocka_unit_test(test_bumped_furnace),
         cmocka_unit_test(test_leaf_sides),
+        cmocka_unit_test(test_leaf_underside),
         cmocka_unit_test(test_emission_and_glass_body),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -521,6 +521,36 @@ static void test_leaf_pale_veins(void **state)
     assert_true(after > 1.02 * before && after < 1.4 * before); // side veins alone
 }
 
+// How many veins a circle of this radius about the stalk's end crosses.
+static int veins_crossed(const Material *m, float radius)
+{
+    enum { STEPS = 4000 };
+    SurfacePoint p = on_midrib();
+    int crossed = 0;
+    bool before = false;
+    for (int i = 0; i <= STEPS; i++) {
+        float turn = 2.0f * PI_F * ((float)i + 0.5f) / STEPS;
+        p.uv = (Vec2){0.5f + radius * sinf(turn), 0.5f + radius * cosf(turn)};
+        bool vein = shade_of(m, &p).transmittance.y < 0.5f * m->transmittance.y;
+        crossed += i > 0 && vein && !before;
+        before = vein;
+    }
+    return crossed;
+}
+
+// A pad's veins are as many as asked for, and fork toward its rim.
+static void test_leaf_rays(void **state)
+{
+    (void)state;
+    Material m = material_default(MATERIAL_LEAF);
+    m.pattern = PATTERN_LEAF;
+    for (m.rays = 8.0f; m.rays < 20.0f; m.rays += 5.0f) {
+        assert_int_equal(veins_crossed(&m, 0.08f), (int)m.rays);
+        int rim = veins_crossed(&m, 0.47f);
+        assert_true(rim > 3 * (int)m.rays && rim <= 4 * (int)m.rays);
+    }
+}
+
 // Dead spots are brown, and take up little of some leaves.
 static void test_leaf_spots(void **state)
 {
@@ -1202,6 +1232,7 @@ int main(void)
         cmocka_unit_test(test_ground),
         cmocka_unit_test(test_leaf_veins),
         cmocka_unit_test(test_leaf_pale_veins),
+        cmocka_unit_test(test_leaf_rays),
         cmocka_unit_test(test_leaf_spots),
         cmocka_unit_test(test_leaf_blotches_tint_light_that_passes),
         cmocka_unit_test(test_variation),

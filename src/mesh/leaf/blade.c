@@ -31,7 +31,9 @@ static void add_kite(Quads *quads, const LeafParams *params)
 
 void blade_add(Quads *quads, const LeafParams *params, BladeDetail detail, uint64_t seed)
 {
-    if (detail == BLADE_KITE) {
+    if (params->shape == LEAF_PAD) {
+        blade_pad_add(quads, params, detail, seed);
+    } else if (detail == BLADE_KITE) {
         add_kite(quads, params);
     } else if (params->shape == LEAF_PALMATE) {
         blade_palmate_add(quads, params, detail, seed);

@@ -42,5 +42,6 @@ void blade_oak_add(Quads *quads, const LeafParams *params, BladeDetail detail, u
 void blade_plain_add(Quads *quads, const LeafParams *params, BladeDetail detail, uint64_t seed);
 void blade_palmate_add(Quads *quads, const LeafParams *params, BladeDetail detail, uint64_t seed);
 void blade_fan_add(Quads *quads, const LeafParams *params, BladeDetail detail, uint64_t seed);
+void blade_pad_add(Quads *quads, const LeafParams *params, BladeDetail detail, uint64_t seed);
 
 #endif

@@ -61,7 +61,9 @@ static void add_blades(Quads *quads, const LeafParams *params, uint64_t seed)
         blade_add(quads, params, detail, seed);
     }
     if (params->wear > 0.0f && params->detail > 1) {
-        wear_cut(quads, 0, params->wear, params->length, seed);
+        // beetles of water plants are small beside a pad
+        float size = params->shape == LEAF_PAD ? 0.35f * params->length : params->length;
+        wear_cut(quads, 0, params->wear, size, seed);
     }
 }
 

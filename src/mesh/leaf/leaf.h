@@ -16,6 +16,7 @@ typedef enum LeafShape {
     LEAF_RHOMBIC,    // with corners at the sides: birch, poplar
     LEAF_PALMATE,    // lobes that spread from the stalk: maple, plane, ivy
     LEAF_FAN,        // ginkgo
+    LEAF_PAD,        // round about the stalk's end, with a notch to it: water lily
     LEAF_NEEDLES,    // a piece of a shoot with needles, or a branchlet of such: spruce, pine
     LEAF_TUFT,       // a rosette of needles on a short shoot: larch, cedar
     LEAF_SCALES      // a spray of twiglets covered with scales: cypress
@@ -29,14 +30,15 @@ typedef enum LeafCompound {
     COMPOUND_PALMATE    // from the end of the stalk
 } LeafCompound;
 
-// A leaf whose stalk starts at the origin, with the blade along +Y, upper side facing +Z. Lengths
-// in metres. Of a compound leaf, length and width are those of the whole. 0 = the shape's own for
-// all below `detail`.
+// A leaf whose stalk starts at the origin, with the blade along +Y, upper side facing +Z; a pad
+// lies all round the end of its stalk. Lengths in metres. Of a compound leaf, length and width are
+// those of the whole. 0 = the shape's own for all below `detail`.
 typedef struct LeafParams {
     float length, width; // of the blade; of a needle
     float petiole;       // length of the stalk; its base is the origin
     float fold;          // degrees by which each half is folded up about the midrib
-    float curl;          // degrees by which the blade or the rachis bends down from base to tip
+    float curl;          // degrees by which the blade or the rachis bends down from base to tip; by
+                         // which a pad's rim bends up where it does
     float wave;          // ripple amplitude of the edge, relative to the width
     int lobes;           // oak: per side, rounded, 0 = none; palmate: of the whole leaf
     float lobe_depth;    // depth of the bays between lobes: oak: relative to the half width;
@@ -72,7 +74,8 @@ typedef struct LeafParams {
 } LeafParams;
 
 // uv: u 0..1 across (0.5 = midrib), v 0..1 along the blade (0 on the stalk), of every leaflet, lobe
-// and needle. seed varies the outline slightly. The caller frees the mesh with mesh_free.
+// and needle; of a pad both from above, its stalk's end at (0.5, 0.5). seed varies the outline
+// slightly. The caller frees the mesh with mesh_free.
 Mesh *leaf_mesh_new(const LeafParams *params, uint64_t seed, Error *e);
 
 // A simpler leaf of the same area, without stalk and lobes, for leaves of a few pixels. level: 0 =

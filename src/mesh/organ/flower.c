@@ -165,7 +165,8 @@ static void add_sepals(OrganBuild *build, float open, float cup)
 
 bool organ_is_closed(const OrganParams *params, uint64_t seed)
 {
-    return params->kind == ORGAN_BLOSSOM && params->buds > 0.0f &&
+    bool opens = params->kind == ORGAN_BLOSSOM || params->kind == ORGAN_WATER_LILY;
+    return opens && params->buds > 0.0f &&
            random_unit(random_key(seed, STREAM_CLOSED)) < params->buds;
 }
 

@@ -72,10 +72,12 @@ void organ_sheet(Quads *quads, const float *length, const float *half, const flo
 static void add_one(OrganBuild *build, uint64_t seed)
 {
     static void (*const add[])(OrganBuild *, uint64_t) = {
-        [ORGAN_BLOSSOM] = organ_blossom, [ORGAN_CATKIN] = organ_catkin, [ORGAN_FRUIT] = organ_fruit,
-        [ORGAN_CONE] = organ_cone,       [ORGAN_ACORN] = organ_acorn,   [ORGAN_HUSK] = organ_husk,
-        [ORGAN_BUD] = organ_bud,         [ORGAN_SAMARA] = organ_samara, [ORGAN_THORN] = organ_thorn,
-        [ORGAN_DAISY] = organ_daisy,     [ORGAN_BELL] = organ_bell};
+        [ORGAN_BLOSSOM] = organ_blossom, [ORGAN_CATKIN] = organ_catkin,
+        [ORGAN_FRUIT] = organ_fruit,     [ORGAN_CONE] = organ_cone,
+        [ORGAN_ACORN] = organ_acorn,     [ORGAN_HUSK] = organ_husk,
+        [ORGAN_BUD] = organ_bud,         [ORGAN_SAMARA] = organ_samara,
+        [ORGAN_THORN] = organ_thorn,     [ORGAN_DAISY] = organ_daisy,
+        [ORGAN_BELL] = organ_bell,       [ORGAN_WATER_LILY] = organ_water_lily};
     add[build->params->kind](build, seed);
 }
 
@@ -107,7 +109,8 @@ static bool is_plain(const OrganParams *p)
 // Radius of a cluster's stalks, m.
 static float stalk_radius(const OrganParams *p)
 {
-    return fmaxf((p->kind == ORGAN_BELL ? 0.075f : 0.03f) * p->width, 0.0004f);
+    float share = p->kind == ORGAN_BELL ? 0.075f : p->kind == ORGAN_WATER_LILY ? 0.14f : 0.03f;
+    return fmaxf(share * p->width, 0.0004f);
 }
 
 // The frame of a member at the end of its stalk, which it adds.

@@ -8,17 +8,18 @@
 #include <stdint.h>
 
 typedef enum OrganKind {
-    ORGAN_BLOSSOM, // flowers of separate petals
-    ORGAN_CATKIN,  // a cylinder of small scales
-    ORGAN_FRUIT,   // round or long, with or without a dimple: apple, cherry, olive, date
-    ORGAN_CONE,    // woody scales in spirals
-    ORGAN_ACORN,   // a nut in a cup
-    ORGAN_HUSK,    // a ball with spikes: horse chestnut
-    ORGAN_BUD,     // pointed, with overlapping scales
-    ORGAN_SAMARA,  // two winged nuts: maple
-    ORGAN_THORN,   // straight spines
-    ORGAN_DAISY,   // flower heads of rays about a disc
-    ORGAN_BELL     // tubes whose tips curl back: bluebell, hyacinth, lily of the valley
+    ORGAN_BLOSSOM,   // flowers of separate petals
+    ORGAN_CATKIN,    // a cylinder of small scales
+    ORGAN_FRUIT,     // round or long, with or without a dimple: apple, cherry, olive, date
+    ORGAN_CONE,      // woody scales in spirals
+    ORGAN_ACORN,     // a nut in a cup
+    ORGAN_HUSK,      // a ball with spikes: horse chestnut
+    ORGAN_BUD,       // pointed, with overlapping scales
+    ORGAN_SAMARA,    // two winged nuts: maple
+    ORGAN_THORN,     // straight spines
+    ORGAN_DAISY,     // flower heads of rays about a disc
+    ORGAN_BELL,      // tubes whose tips curl back: bluebell, hyacinth, lily of the valley
+    ORGAN_WATER_LILY // sepals, pointed petals in many whorls, stamens as broad as petals
 } OrganKind;
 
 // How those of one place stand together.
@@ -34,7 +35,7 @@ typedef enum OrganTissue {
     TISSUE_WOOD,   // scales of cones, catkins and buds, cups, spines
     TISSUE_GREEN,  // stalks, sepals, stamens
     TISSUE_WING,   // thin: of winged nuts
-    TISSUE_ANTHER, // pollen bags of a blossom of detail 2
+    TISSUE_ANTHER, // pollen bags of a blossom of detail 2; stamens and stigma of a water lily
     TISSUES
 } OrganTissue;
 

@@ -67,6 +67,7 @@ bool organ_is_closed(const OrganParams *params, uint64_t seed);
 void organ_blossom(OrganBuild *build, uint64_t seed);
 void organ_daisy(OrganBuild *build, uint64_t seed);
 void organ_bell(OrganBuild *build, uint64_t seed);
+void organ_water_lily(OrganBuild *build, uint64_t seed);
 void organ_catkin(OrganBuild *build, uint64_t seed);
 void organ_cone(OrganBuild *build, uint64_t seed);
 void organ_fruit(OrganBuild *build, uint64_t seed);

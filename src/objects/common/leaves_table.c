@@ -2,19 +2,13 @@
 #include "config/load.h"
 #include "objects/common/leaves.h"
 
-static const EnumName SHAPES[] = {{"oak", LEAF_OAK},
-                                  {"ovate", LEAF_OVATE},
-                                  {"obovate", LEAF_OBOVATE},
-                                  {"lanceolate", LEAF_LANCEOLATE},
-                                  {"linear", LEAF_LINEAR},
-                                  {"cordate", LEAF_CORDATE},
-                                  {"rhombic", LEAF_RHOMBIC},
-                                  {"palmate", LEAF_PALMATE},
-                                  {"fan", LEAF_FAN},
-                                  {"needles", LEAF_NEEDLES},
-                                  {"tuft", LEAF_TUFT},
-                                  {"scales", LEAF_SCALES},
-                                  {0}};
+static const EnumName SHAPES[] = {{"oak", LEAF_OAK},         {"ovate", LEAF_OVATE},
+                                  {"obovate", LEAF_OBOVATE}, {"lanceolate", LEAF_LANCEOLATE},
+                                  {"linear", LEAF_LINEAR},   {"cordate", LEAF_CORDATE},
+                                  {"rhombic", LEAF_RHOMBIC}, {"palmate", LEAF_PALMATE},
+                                  {"fan", LEAF_FAN},         {"pad", LEAF_PAD},
+                                  {"needles", LEAF_NEEDLES}, {"tuft", LEAF_TUFT},
+                                  {"scales", LEAF_SCALES},   {0}};
 static const EnumName COMPOUNDS[] = {{"none", COMPOUND_NONE},
                                      {"pinnate", COMPOUND_PINNATE},
                                      {"bipinnate", COMPOUND_BIPINNATE},
@@ -80,7 +74,8 @@ static const Key LEAVES_KEYS[] = {
          "hazel); obovate: widest above the middle (alder, horse chestnut's leaflets); lanceolate: "
          "narrow (willow, olive, eucalyptus); linear: parallel sides (bamboo, palms' leaflets); "
          "cordate: heart (lime); rhombic: with corners (birch, poplar); palmate: lobed (maple, "
-         "plane, ivy); fan: ginkgo; needles: a piece of twig with needles (spruce, fir, pine); "
+         "plane, ivy); fan: ginkgo; pad: nearly round about the stalk's end, with a notch (water "
+         "lily); needles: a piece of twig with needles (spruce, fir, pine); "
          "tuft: a rosette of needles (larch, cedar); scales: a spray of scaly twiglets (cypress)."},
     {KEY_OF(LeavesParams, length, "length", KEY_FLOAT), .flags = KEY_ABOVE, .high = 100,
      .unit = "m", .doc = "Length of a blade, of a whole compound leaf, of a needle or twiglet."},
@@ -97,7 +92,7 @@ static const Key LEAVES_KEYS[] = {
      .doc = "Angle by which each half is folded up about the midrib."},
     {KEY_OF(LeavesParams, curl, "curl", KEY_FLOAT), .low = -360, .high = 360, .unit = "degrees",
      .doc = "Angle by which the blade, or the rachis of a compound leaf or frond, bends along its "
-            "length."},
+            "length; by which a pad's rim bends up in some places."},
     {KEY_OF(LeavesParams, wave, "wave", KEY_FLOAT), .high = 1,
      .doc = "Ripple of the edge, as a fraction of the width."},
     {KEY_OF(LeavesParams, widest, "widest", KEY_FLOAT), .high = 0.95,

@@ -204,7 +204,8 @@ static bool is_scaly(OrganKind kind)
 // Simpler forms for organs of a few pixels, where there are some; else NULL. The caller frees each.
 static bool coarse_meshes(const OrganParams *form, uint64_t key, Mesh *mesh[TISSUES], Error *e)
 {
-    bool some = is_scaly(form->kind) || form->kind == ORGAN_BLOSSOM || form->kind == ORGAN_BELL;
+    bool some = is_scaly(form->kind) || form->kind == ORGAN_BLOSSOM || form->kind == ORGAN_BELL ||
+                form->kind == ORGAN_WATER_LILY;
     OrganParams plain = *form;
     plain.detail = 0;
     return !some || organ_meshes(&plain, key, mesh, e);

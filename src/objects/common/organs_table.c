@@ -2,11 +2,19 @@
 #include "config/table.h"
 #include "objects/common/organs.h"
 
-static const EnumName KINDS[] = {
-    {"blossom", ORGAN_BLOSSOM}, {"catkin", ORGAN_CATKIN}, {"fruit", ORGAN_FRUIT},
-    {"cone", ORGAN_CONE},       {"acorn", ORGAN_ACORN},   {"husk", ORGAN_HUSK},
-    {"bud", ORGAN_BUD},         {"samara", ORGAN_SAMARA}, {"thorn", ORGAN_THORN},
-    {"daisy", ORGAN_DAISY},     {"bell", ORGAN_BELL},     {0}};
+static const EnumName KINDS[] = {{"blossom", ORGAN_BLOSSOM},
+                                 {"catkin", ORGAN_CATKIN},
+                                 {"fruit", ORGAN_FRUIT},
+                                 {"cone", ORGAN_CONE},
+                                 {"acorn", ORGAN_ACORN},
+                                 {"husk", ORGAN_HUSK},
+                                 {"bud", ORGAN_BUD},
+                                 {"samara", ORGAN_SAMARA},
+                                 {"thorn", ORGAN_THORN},
+                                 {"daisy", ORGAN_DAISY},
+                                 {"bell", ORGAN_BELL},
+                                 {"water_lily", ORGAN_WATER_LILY},
+                                 {0}};
 static const EnumName SITES[] = {
     {"ends", SITES_ENDS}, {"along", SITES_ALONG}, {"stem", SITES_STEM}, {0}};
 static const EnumName CLUSTERS[] = {{"umbel", CLUSTER_UMBEL}, {"raceme", CLUSTER_RACEME}, {0}};
@@ -19,7 +27,9 @@ static const Key ORGAN_KEYS[] = {
          "husk: a ball with spikes (horse chestnut); bud: of winter twigs; samara: paired "
          "winged nuts (maple); thorn: straight spines; daisy: rays about a disc, which is of the "
          "fruit's material; bell: petals that form a tube and curl back at their tips (bluebell, "
-         "lily of the valley)."},
+         "lily of the valley); water_lily: sepals, green below, and many pointed petals about "
+         "stamens, "
+         "which are of the material of anthers."},
     {KEY_OF(OrganGroup, where, "where", KEY_ENUM), .names = SITES,
      .doc = "ends: at the ends of twigs; along: along twigs, in a spiral; stem: in lines along "
             "stems and branches, as a cactus' spines."},
@@ -81,8 +91,8 @@ static const Key ORGAN_KEYS[] = {
      .doc = "From closed (0) to wide open (1): petals, the scales of cones and catkins, the wings "
             "of a samara; of bells how far their tips curl back, 0 = a plain tube."},
     {KEY_OF(OrganGroup, petals, "petals", KEY_INT), .low = 3, .high = 60,
-     .doc = "Petals of a blossom, where more than 5 stand in several whorls, or of a bell; rays of "
-            "a daisy."},
+     .doc = "Petals of a blossom, where more than 5 stand in several whorls, of a water lily or of "
+            "a bell; rays of a daisy."},
     {KEY_OF(OrganGroup, buds, "buds", KEY_FLOAT), .high = 1,
      .doc = "Share of the blossoms of a cluster that are still closed, on shorter stalks; of bells "
             "the last ones of the cluster."},
@@ -216,6 +226,14 @@ static const OrganGroup OWN_DEFAULTS[] = {
                     .width = 0.008f,
                     .stalk = 0.012f,
                     .open = 0.8f},
+    [ORGAN_WATER_LILY] = {.where = SITES_ENDS,
+                          .share = 0.8f,
+                          .spacing = 0.1f,
+                          .per_cluster = 1,
+                          .length = 0.055f,
+                          .width = 0.022f,
+                          .stalk = 0.02f,
+                          .open = 0.8f},
 };
 
 static void organ_defaults(const Node *given, int kind, void *out)
@@ -228,7 +246,7 @@ static void organ_defaults(const Node *given, int kind, void *out)
     group->twig_radius = 0.008f;
     group->rows = 12;
     group->axis = 0.15f;
-    group->petals = kind == ORGAN_BELL ? 6 : 5;
+    group->petals = kind == ORGAN_BELL ? 6 : kind == ORGAN_WATER_LILY ? 22 : 5;
     group->bract_length = 0.015f;
     group->size_variation = 0.25f;
     group->variants = 3;

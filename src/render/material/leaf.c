@@ -15,7 +15,9 @@ static void bound_colors(Bsdf *b)
 static void prepare(Bsdf *b, const MaterialEntry *entry, const SurfacePoint *point, float cos_o)
 {
     bool underside = point->backface;
-    if (underside) { // the underside is paler and greyer
+    if (underside && vec3_largest(entry->material.underside_color) > 0.0f) {
+        b->color = entry->material.underside_color;
+    } else if (underside) { // paler and greyer
         float grey = luminance(b->color);
         b->color = vec3_scale(vec3_lerp(b->color, vec3_splat(grey), 0.3f), 1.45f);
     }

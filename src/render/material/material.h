@@ -131,6 +131,7 @@ typedef struct Material {
     Vec3 transmittance;   // MATERIAL_LEAF: diffuse transmittance
     Vec3 autumn_color;    // MATERIAL_LEAF: reflectance of a leaf that has turned
     Vec3 young_color;     // MATERIAL_LEAF: of a leaf out of its bud; black = paler than color
+    Vec3 underside_color; // MATERIAL_LEAF: of the lower side; black = paler than color
     Vec3 faded_color;     // MATERIAL_LEAF: of tissue without green; black = of its own green
     Vec3 absorption;      // MATERIAL_DIELECTRIC: per metre, Beer-Lambert
     Vec3 scattering;      // MATERIAL_DIELECTRIC: per metre: clouded, milky, flesh
@@ -162,6 +163,7 @@ typedef struct Material {
     float twist;        // degrees per metre, of the grain about the stem
     float bark_height;  // m along the wood up to which old bark reaches; 0 = by thickness alone
     float veins;        // PATTERN_LEAF: side veins on each half; 0 = veins along the blade
+    float rays;         // PATTERN_LEAF: veins from the point (0.5, 0.5), instead; 0 = none
     float pale_veins;   // PATTERN_LEAF, 0..1: how much paler than the blade they are from above
     Vec3 mortar;        // PATTERN_RUBBLE: reflectance of its mortar
     float cracks;       // PATTERN_BADLANDS, 0..1: how far its clay has dried to crumbs and plates

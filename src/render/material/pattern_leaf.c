@@ -46,9 +46,30 @@ static float veinlets(float run, float side, float count, float blur)
     return seen * fmaxf(0.6f * first, 0.5f * second);
 }
 
-// Coverage of uv by a vein; count: side veins on each half.
-static float veins(Vec2 uv, float count, float blur)
+// Veins from the middle, uv (0.5, 0.5), to a rim about 0.5 away; each forks twice on its way.
+static float veins_radial(Vec2 uv, float count, float blur)
 {
+    float x = uv.x - 0.5f, y = uv.y - 0.5f, r = sqrtf(x * x + y * y);
+    float bend = noise_fractal(vec3(7.0f * uv.x, 7.0f * uv.y, 0.0f), 2, 67);
+    float run = count * (atan2f(x, y) / (2.0f * PI_F) + 0.5f) + 0.16f * bend;
+    float number = floorf(run), away = fabsf(run - number - 0.5f);
+    float place = noise_unit((uint32_t)(int32_t)number, 71); // of the first fork
+    float first = 0.25f * smoothstepf(lerpf(0.1f, 0.24f, place), 0.52f, r);
+    float second = 0.1f * smoothstepf(lerpf(0.3f, 0.38f, place), 0.56f, r);
+    float across = fabsf(fabsf(away - first) - second) * 2.0f * PI_F * r / count;
+    float vein = line(across, lerpf(0.011f, 0.0035f, clampf(2.2f * r, 0.0f, 1.0f)), blur);
+    float border = noise_cells(vec3(34.0f * uv.x, 34.0f * uv.y, 0.5f), 53).border;
+    float net = line(border / 34.0f, 0.0022f, blur) * (1.0f - smoothstepf(0.004f, 0.012f, blur));
+    return fmaxf(vein, fmaxf(0.35f * net, 1.0f - smoothstepf(0.012f, 0.03f, r)));
+}
+
+// Coverage of uv by a vein; count: side veins on each half.
+static float veins(const Material *m, Vec2 uv, float blur)
+{
+    float count = m->veins;
+    if (m->rays > 0.0f) {
+        return veins_radial(uv, m->rays, blur);
+    }
     if (count <= 0.0f) {
         return veins_along(uv, blur);
     }
@@ -64,12 +85,15 @@ static float veins(Vec2 uv, float count, float blur)
 
 // How far a blade is paler about its midrib (of a lobed one, those of all lobes) and its side
 // veins: along the vein nearly white, beside it in a band that fades.
-static float pale_band(Vec2 uv, float count, float blur)
+static float pale_band(const Material *m, Vec2 uv, float blur)
 {
+    if (m->rays > 0.0f) {
+        return 0.8f * veins(m, uv, blur);
+    }
     float side = fabsf(uv.x - 0.5f);
     float midrib = line(side, lerpf(0.045f, 0.012f, uv.y), blur);
     float band = 0.3f * (1.0f - smoothstepf(0.0f, lerpf(0.2f, 0.08f, uv.y), side));
-    float fine = count > 0.0f ? 0.3f * veins(uv, count, blur) : 0.0f;
+    float fine = m->veins > 0.0f ? 0.3f * veins(m, uv, blur) : 0.0f;
     return fmaxf(fmaxf(0.8f * midrib, fine), band);
 }
 
@@ -102,7 +126,7 @@ void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *sh
     float seed = 31.0f * point->variation;
     Vec3 p = vec3(5.0f * point->uv.x, 7.0f * point->uv.y, seed);
     float blotch = noise_fractal(p, blur < 0.05f ? 3 : 1, 41);
-    float vein = blur < 0.2f ? veins(point->uv, m->veins, blur) : 0.0f;
+    float vein = blur < 0.2f ? veins(m, point->uv, blur) : 0.0f;
     Vec3 own = shade->color;
     // Blotches shift toward the second colour if the material has a distinct one.
     float spot = smoothstepf(0.25f, 0.75f, blotch);
@@ -114,7 +138,7 @@ void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *sh
                      1.2f * shade->color.z + 0.008f);
     shade->color = vec3_lerp(blade, pale, 0.8f * vein);
     if (m->pale_veins > 0.0f && blur < 0.2f) {
-        float light = m->pale_veins * pale_band(point->uv, m->veins, blur);
+        float light = m->pale_veins * pale_band(m, point->uv, blur);
         shade->color = vec3_lerp(shade->color, vec3(0.30f, 0.36f, 0.20f), light);
     }
     float clear = 1.0f + 0.25f * blotch; // blotches thin or thicken the blade
@@ -131,8 +155,8 @@ void pattern_leaf(const Material *m, const SurfacePoint *point, PatternShade *sh
         shade->transmittance, vec3(1.0f - 0.45f * dead, 1.0f - 0.8f * dead, 1.0f - 0.7f * dead));
     if (m->pattern_depth > 0.0f && blur < 0.05f && length > 0.0f) {
         const float h = 0.004f;
-        float du = veins((Vec2){point->uv.x + h, point->uv.y}, m->veins, blur) - vein;
-        float dv = veins((Vec2){point->uv.x, point->uv.y + h}, m->veins, blur) - vein;
+        float du = veins(m, (Vec2){point->uv.x + h, point->uv.y}, blur) - vein;
+        float dv = veins(m, (Vec2){point->uv.x, point->uv.y + h}, blur) - vein;
         float width = vec3_length(point->tangent_u);
         Vec3 u = vec3_scale(point->tangent_u, width > 0.0f ? 1.0f / (width * width) : 0.0f);
         Vec3 v = vec3_scale(point->tangent_v, 1.0f / (length * length));
