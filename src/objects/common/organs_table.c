@@ -28,8 +28,7 @@ static const Key ORGAN_KEYS[] = {
          "winged nuts (maple); thorn: straight spines; daisy: rays about a disc, which is of the "
          "fruit's material; bell: petals that form a tube and curl back at their tips (bluebell, "
          "lily of the valley); water_lily: sepals, green below, and many pointed petals about "
-         "stamens, "
-         "which are of the material of anthers."},
+         "stamens, which are of the material of anthers."},
     {KEY_OF(OrganGroup, where, "where", KEY_ENUM), .names = SITES,
      .doc = "ends: at the ends of twigs; along: along twigs, in a spiral; stem: in lines along "
             "stems and branches, as a cactus' spines."},
