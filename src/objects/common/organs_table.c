@@ -221,6 +221,7 @@ static const OrganGroup OWN_DEFAULTS[] = {
                     .per_cluster = 8,
                     .spread = 50.0f,
                     .nod = 0.8f,
+                    .petals = 6,
                     .length = 0.019f,
                     .width = 0.008f,
                     .stalk = 0.012f,
@@ -229,6 +230,7 @@ static const OrganGroup OWN_DEFAULTS[] = {
                           .share = 0.8f,
                           .spacing = 0.1f,
                           .per_cluster = 1,
+                          .petals = 22,
                           .length = 0.055f,
                           .width = 0.022f,
                           .stalk = 0.02f,
@@ -245,7 +247,7 @@ static void organ_defaults(const Node *given, int kind, void *out)
     group->twig_radius = 0.008f;
     group->rows = 12;
     group->axis = 0.15f;
-    group->petals = kind == ORGAN_BELL ? 6 : kind == ORGAN_WATER_LILY ? 22 : 5;
+    group->petals = group->petals > 0 ? group->petals : 5;
     group->bract_length = 0.015f;
     group->size_variation = 0.25f;
     group->variants = 3;
